@@ -38,25 +38,27 @@ Environment fromFile(const EnvironmentRequest& request, LoadReport& lines) {
     return environment;
 }
 
-Environment skyOf(const SunRequest& request) {
+} // namespace
+
+float rotationOf(const EnvironmentRequest& request, float ofFile) {
+    const double degrees = request.rotationDegrees - (request.sun ? request.sun->azimuth : 0.0);
+    return float(double(ofFile) + degrees * glm::pi<double>() / 180);
+}
+
+Environment environmentOf(const SunRequest& request) {
     sky::SunSky s;
-    const double azimuth = glm::radians(request.azimuth),
-                 elevation = glm::radians(std::clamp(request.elevation, 0.0, 90.0));
+    const double elevation = glm::radians(std::clamp(request.elevation, 0.0, 90.0));
     s.turbidity = request.turbidity;
     s.halfAperture = glm::radians(0.5358 / 2);
     s.sunScale = s.skyScale = 1 / kDaylight;
     s.skyFromWorld = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
-    s.sun =
-        s.skyFromWorld * glm::dvec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                                    -std::cos(elevation) * std::cos(azimuth));
+    s.sun = s.skyFromWorld * glm::dvec3(0, std::sin(elevation), -std::cos(elevation));
     s.sun.z = std::max(s.sun.z, 0.0); // of an elevation of 0, whose sine is rounded
     Environment environment = sky::sunSkyPicture(s, sky::sunIrradiance(s));
     sky::addGround(environment, s.albedo);
     environment.name = fmt::format("sun at {:g},{:g}", request.azimuth, request.elevation);
     return environment;
 }
-
-} // namespace
 
 void addEnvironment(Scene& scene, const EnvironmentRequest& request) {
     if (request.sun && (request.constant || !request.file.empty()))
@@ -65,13 +67,13 @@ void addEnvironment(Scene& scene, const EnvironmentRequest& request) {
             "of them");
     Environment environment;
     if (request.sun)
-        environment = skyOf(*request.sun);
+        environment = environmentOf(*request.sun);
     else if (request.constant)
         environment.radiance = {*request.constant};
     else
         environment = fromFile(request, scene.report);
     environment.strength = float(request.strength);
-    environment.rotation = float(request.rotationDegrees * glm::pi<double>() / 180);
+    environment.rotation = rotationOf(request);
     addEnvironment(scene, std::move(environment));
 }
 

@@ -34,6 +34,13 @@ struct EnvironmentRequest {
 /// skies have this one, in the unit of scene/sky.
 inline constexpr double kDaylight = 0.357;
 
+/// Environment::rotation of an environment of the request; of the file's own one where `ofFile` is
+/// what it has there.
+float rotationOf(const EnvironmentRequest& request, float ofFile = 0);
+
+/// The picture of the sky and its sun. Its azimuth is its rotation, and nothing else.
+Environment environmentOf(const SunRequest& request);
+
 /// Puts the environment around the scene, in the place of its ambient lights, which it reports.
 /// Throws SceneError if the file cannot be read.
 void addEnvironment(Scene& scene, const EnvironmentRequest& request);

@@ -118,6 +118,12 @@ void writeCheckpoint(const fs::path& file, const Checkpoint& checkpoint) {
     writeFileAtomically(file, bytes);
 }
 
+bool isCheckpoint(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string beginning(kMagic.size(), 0);
+    return stream.read(beginning.data(), std::streamsize(beginning.size())) && beginning == kMagic;
+}
+
 Checkpoint readCheckpoint(const fs::path& file) {
     const std::vector<std::byte> bytes = contentOf(file);
     ByteParts parts(file, "checkpoint", bytes);

@@ -81,6 +81,8 @@ std::filesystem::path usualCheckpointPath(const std::filesystem::path& picture);
 
 /// Replaces the file whole. Throws OutputError.
 void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+/// Whether the file begins as one of this version does.
+bool isCheckpoint(const std::filesystem::path& file);
 /// Throws UsageError that names the file if it is none, damaged, cut short or of another version.
 Checkpoint readCheckpoint(const std::filesystem::path& file);
 

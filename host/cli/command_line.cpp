@@ -163,6 +163,19 @@ Words withNumbersTogether(const OptionList& list, const Words& words) {
     return together;
 }
 
+/// "--watch room.xml" is "--watch 0 room.xml", since its number may be missing.
+Words withMissingNumbers(const OptionList& list, const Words& words) {
+    Words all;
+    for (size_t i = 0; i < words.size(); ++i) {
+        all.push_back(words[i]);
+        if (i + 1 < words.size() && isWholeNumber(words[i + 1])) continue;
+        for (const CommandOption& o : list.all())
+            if (!o.ifMissing.empty() && std::ranges::count(o.dashedNames(), words[i]) > 0)
+                all.push_back(o.ifMissing);
+    }
+    return all;
+}
+
 /// "help render" is "render --help", and "help" is "--help".
 Words withoutHelpCommand(const Words& words) {
     if (words.empty() || words.front() != "help") return words;
@@ -336,7 +349,9 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     const Words words =
         named == commands.end()
             ? asked
-            : withNumbersTogether(named->list, withoutJoinedNumbers(named->list, asked));
+            : withMissingNumbers(
+                  named->list,
+                  withNumbersTogether(named->list, withoutJoinedNumbers(named->list, asked)));
     Given given;
     std::vector<CLI::App*> apps;
     for (const DeclaredCommand& c : commands) {

@@ -135,6 +135,11 @@ CommandOption& CommandOption::maybeApart() {
     return *this;
 }
 
+CommandOption& CommandOption::maybeWithoutNumber(std::string number) {
+    ifMissing = std::move(number);
+    return *this;
+}
+
 CommandOption& CommandOption::common() {
     isCommon = true;
     return *this;

@@ -108,6 +108,9 @@ class CommandOption {
     CommandOption& maybeJoined();
     /// A word, or two whole numbers, which are stored as one word with a comma: 320,180.
     CommandOption& maybeApart();
+    /// Its number may be missing, and is then this one: a word behind it that is no whole number
+    /// belongs to others.
+    CommandOption& maybeWithoutNumber(std::string number);
     /// Is among the few that --help lists first.
     CommandOption& common();
     /// Words that completion proposes. Others may be understood too.
@@ -124,7 +127,8 @@ class CommandOption {
     std::string names;      ///< "-l,--light-samples"; without dashes: by position
     std::string valueNames; ///< of its words, as "W H"; empty: a flag
     std::string help, group, usual;
-    std::string range; ///< of its numbers, in words; empty: it takes none
+    std::string range;     ///< of its numbers, in words; empty: it takes none
+    std::string ifMissing; ///< its word where it has none; empty: it must have one
     uint32_t wordCount = 1;
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
     bool isRequired = false, isHidden = false, isFirst = false, isBesidePicture = false;
@@ -305,6 +309,8 @@ void declareSampler(OptionList& list, Sampler& where);
 /// -s, --sampler, --seed.
 void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
                     const std::string& samplesHelp);
+/// --clamp-indirect.
+void declareClamp(OptionList& list, RenderRequest& picture);
 /// usually: the default, in words.
 void declareBranches(OptionList& list, RenderRequest& picture, const std::string& usually);
 /// --block.

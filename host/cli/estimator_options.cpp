@@ -178,6 +178,16 @@ void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
     list.number("--seed", "N", "another seed, another noise", e.seed, kAnySeed);
 }
 
+void declareClamp(OptionList& list, RenderRequest& picture) {
+    list.group("Sampling");
+    list.real("--clamp-indirect", "X",
+              "limit what light brings at a time that was scattered twice or more to X in its "
+              "brightest channel: fewer fireflies, but light is missing: the picture is biased",
+              picture.estimator.indirectLimit, {1e-6, 1e30})
+        .usually("off")
+        .excludes("--cs184");
+}
+
 void declareBranches(OptionList& list, RenderRequest& picture, const std::string& usually) {
     list.group("Sampling");
     list.choice("--guiding", "WHEN",

@@ -1,5 +1,6 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/kept_files.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_outputs.hpp"
@@ -232,7 +233,11 @@ void declareMerge(DeclaredCommand& c) {
     const auto owned = std::make_shared<MergeOptions>();
     MergeOptions& o = *owned;
     c.list.group("Films");
-    c.list.list("FILM", "", "films that render --share or merge wrote, in any order", o.films)
+    c.list
+        .list("FILM", "",
+              "films that render --share or merge wrote, in any order; or the checkpoint of a "
+              "render, to see how far it is",
+              o.films)
         .required()
         .proposes(Proposed::Files);
     c.list.group("Output");
@@ -262,12 +267,26 @@ void declareMerge(DeclaredCommand& c) {
 }
 
 int mergeCommand(const MergeOptions& options) {
+    namespace fs = std::filesystem;
     nowDoing(fmt::format("adding up {} films", options.films.size()));
     if (namesFilm(options.output.file))
         checkFileWritable(options.output.file);
     else
         checkWritable(options.output.file);
-    FilmsToMerge films({options.films.begin(), options.films.end()});
+    for (const std::string& file : options.films)
+        if (isCheckpoint(file)) {
+            if (options.films.size() == 1) return mergeCheckpoint(file, options);
+            throw UsageError(fmt::format("{}: a checkpoint is a picture of its own: merge takes "
+                                         "one, or films",
+                                         file));
+        }
+    size_t merged = options.films.size();
+    FilmsToMerge films({options.films.begin(), options.films.end()},
+                       [&merged](const fs::path& file, const UnfinishedFilm& film) {
+                           --merged;
+                           logging::warn(
+                               fmt::format("{} {}; it is left out", file.string(), inWords(film)));
+                       });
     const FilmHeader& header = films.header();
     if (!header.isComplete()) {
         const std::string missing = missingFrom(header);
@@ -287,7 +306,7 @@ int mergeCommand(const MergeOptions& options) {
         writeFilm(films, options);
     else
         noise = writeMergedPicture(films, options);
-    logging::info(fmt::format("{} films, {}", options.films.size(), samplesNote(header)));
+    logging::info(fmt::format("{} films, {}", merged, samplesNote(header)));
     if (noise && header.settings.estimator.integrator == Integrator::Path)
         logging::info(inWords(*noise));
     return 0;

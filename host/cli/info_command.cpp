@@ -1,6 +1,7 @@
 #include "host/bvh/statistics.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/kept_files.hpp"
 #include "host/cli/progress.hpp"
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"
@@ -190,6 +191,8 @@ void declareInfo(DeclaredCommand& c) {
 int infoCommand(const InfoOptions& options) {
     if (namesPicture(options.scene.source))
         return infoOfPicture(options.scene.source, options.jsonFile);
+    if (isKeptRender(options.scene.source))
+        return infoOfKeptRender(options.scene.source, options.jsonFile);
     PreparedPicture prepared = preparePicture(options);
     const auto& [scene, picture] = prepared;
     const RenderSettings& settings = picture.settings;

@@ -233,6 +233,7 @@ struct ViewOptions : SceneAndPicture {
     View viewTransform = View::Standard;
     std::string exposure = "auto"; ///< a number, or auto
     bool denoised = false;
+    std::string reference; ///< a picture to compare with; empty: none
     /// The parts of a command that renders what is viewed, apart from camera, size and tone.
     std::vector<std::string> command;
     /// Those that say what camera is taken, as long as nobody has moved it.

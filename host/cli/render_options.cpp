@@ -84,10 +84,11 @@ void declareWatching(OptionList& list, WatchOptions& o, ProgressRequest& progres
         .usually("auto")
         .besidePicture()
         .proposes({"auto", "json", "off"});
-    list.number("--watch", "PORT",
+    list.number("--watch", "[PORT]",
                 "serve a page that shows the picture while it is rendered, on this machine alone; "
-                "0: at any port that is free; the address is printed (docs/guide/view.md)",
+                "without a port at any that is free; the address is printed (docs/guide/view.md)",
                 o.port, {0, 65535})
+        .maybeWithoutNumber("0")
         .excludes("--share", "its picture is in several films")
         .besidePicture();
     list.words("--update", "FILE",
@@ -294,6 +295,7 @@ void declareRender(DeclaredCommand& c) {
                    "alike); with -a, --noise and --time the most a pixel gets");
     declareBranches(list, o->picture,
                     "4 where bounces make most of the noise, else 1 (docs/theory/estimator.md)");
+    declareClamp(list, o->picture);
     declareSpreading(list, o->picture, *asked);
     declarePixelAlone(list, *asked);
     declareShare(list, o->share);

@@ -111,6 +111,8 @@ void logReport(const RenderReport& report, const RenderSettings& settings) {
     if (settings.estimator.integrator == Integrator::Path && !report.isShare)
         logNoise(r, settings.budget.stop);
     if (r.denoised) logDenoised(*r.denoised);
+    if (settings.estimator.indirectLimit > 0)
+        logging::warn("--clamp-indirect removes light: the picture is biased");
     if (!r.firstRejected) return;
     logging::warn(fmt::format(
         "{} samples were not finite, negative or too large and were left out; to see the "
@@ -172,6 +174,7 @@ void writeStatistics(const std::string& file, const RenderReport& report, const 
         {"spread", s.budget.spreads() || s.budget.adaptive.enabled ? "by noise" : "even"},
         {"maxBounces", s.estimator.maxBounces},
         {"seed", s.estimator.seed},
+        {"clampIndirect", s.estimator.indirectLimit},
         {"sampler", nameOf(s.estimator.sampler)},
         {"triangles", scene.triangles.size()},
         {"spheres", scene.spheres.size()},

@@ -147,10 +147,10 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
                1, [&scene](const Words& words) { scene.ground = readGround(words[0]); })
         .excludes("--cs184");
     list.real("--env-rotate", "DEGREES",
-              "turns it about the vertical, counter-clockwise seen from above",
+              "turns it, or the file's own one, about the vertical, counter-clockwise seen from "
+              "above",
               environment.rotationDegrees, {-3600, 3600}, kDegrees)
-        .excludes("--sun", "its first number turns it")
-        .needs("--env");
+        .excludes("--sun", "its first number turns it");
     list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
         .needs("--env");
     list.words("--fog", "DENSITY",

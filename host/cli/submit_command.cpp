@@ -220,6 +220,7 @@ void declareSubmit(DeclaredCommand& c) {
                    "samples per pixel, the same number for all; with --noise in the first round");
     declareBranches(c.list, submit.picture,
                     "4 where bounces make most of the noise, else 1 (docs/theory/estimator.md)");
+    declareClamp(c.list, submit.picture);
     declareBlock(c.list, *asked);
     declareFilmMemory(c.list, submit.device);
     c.list.choice("--backend", "WHICH", "what takes the samples", submit.device.backend);

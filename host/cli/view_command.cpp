@@ -33,9 +33,10 @@ constexpr Range<uint32_t> kPorts{0, 65535};
 
 /// Options that say what the page has a word in.
 const Words& ofThePage() {
-    static const Words kNames = {"-r",         "--crop",  "--view",      "--exposure", "--denoise",
-                                 "--host",     "--port",  "--open",      "--camera",   "--fov",
-                                 "--aperture", "--focus", "--look-from", "--look-at"};
+    static const Words kNames = {
+        "-r",          "--crop",    "--view",       "--exposure", "--denoise",  "--host",
+        "--port",      "--open",    "--camera",     "--fov",      "--aperture", "--focus",
+        "--look-from", "--look-at", "--env-rotate", "--sun",      "--variant",  "--at"};
     return kNames;
 }
 const Words& ofTheCamera() {
@@ -60,16 +61,29 @@ std::string poseInWords(const view::Pose& pose) {
     return text;
 }
 
+/// What the page can change of the scene and its light.
+void addScene(Words& parts, const SceneRequest& scene) {
+    const EnvironmentRequest& around = scene.environment;
+    if (const auto& sun = around.sun)
+        parts.push_back(
+            fmt::format("--sun {},{},{}", sun->azimuth, sun->elevation, sun->turbidity));
+    else if (around.rotationDegrees != 0)
+        parts.push_back(fmt::format("--env-rotate {}", around.rotationDegrees));
+    const FileSelection& selection = scene.reading.selection;
+    if (!selection.variant.empty()) parts.push_back("--variant " + shellQuoted(selection.variant));
+    if (selection.seconds) parts.push_back(fmt::format("--at {}", *selection.seconds));
+}
+
 /// What is viewed, as a picture in a file that has the name of the scene.
-std::string commandOf(const ViewOptions& o, const std::optional<view::Pose>& pose,
-                      const std::optional<size_t>& fileCamera, const ResolvedPicture& picture,
-                      const view::ToneWords& tone, bool denoised) {
-    const PictureArea& area = picture.settings.area;
+std::string commandOf(const ViewOptions& o, const view::Viewed& viewed) {
+    const PictureArea& area = viewed.picture.settings.area;
+    const view::ToneWords& tone = viewed.tone;
     Words parts = o.command;
-    if (pose)
-        parts.push_back(poseInWords(*pose));
-    else if (fileCamera)
-        parts.push_back(fmt::format("--camera {}", *fileCamera + 1));
+    addScene(parts, viewed.scene);
+    if (viewed.pose)
+        parts.push_back(poseInWords(*viewed.pose));
+    else if (viewed.fileCamera)
+        parts.push_back(fmt::format("--camera {}", *viewed.fileCamera + 1));
     else
         parts.insert(parts.end(), o.cameraWords.begin(), o.cameraWords.end());
     parts.push_back(fmt::format("-r {} {}", area.width, area.height));
@@ -78,7 +92,7 @@ std::string commandOf(const ViewOptions& o, const std::optional<view::Pose>& pos
         parts.push_back(fmt::format("--crop {} {} {} {}", crop.x, crop.y, crop.width, crop.height));
     if (tone.view != "standard") parts.push_back("--view " + tone.view);
     if (tone.exposure != "0") parts.push_back("--exposure " + tone.exposure);
-    if (denoised) parts.emplace_back("--denoise on");
+    if (viewed.denoised) parts.emplace_back("--denoise on");
     if (o.picture.guiding != Guiding::Automatic)
         parts.push_back(fmt::format("--guiding {}", nameOf(o.picture.guiding)));
     std::string stem = std::filesystem::path(o.scene.source).stem().string();
@@ -120,10 +134,17 @@ view::LiveRequest liveRequest(const ViewOptions& o, LoadedScene scene) {
     view::LiveRequest request;
     request.name = o.scene.source;
     request.picture = o.picture;
-    request.command = [o](const auto& pose, const auto& fileCamera, const auto& picture,
-                          const auto& tone, bool denoised) {
-        return commandOf(o, pose, fileCamera, picture, tone, denoised);
-    };
+    if (!o.reference.empty()) {
+        request.reference = view::readReference(o.reference);
+        const compare::Picture& reference = request.reference->picture;
+        if (!o.picture.size && o.picture.crop.width == 0)
+            request.picture.size = PictureSize{reference.width, reference.height};
+    }
+    request.source = o.scene;
+    Listener listener = sayingOnce(toTerminal());
+    listener.activity = nullptr; // on another thread than what renders
+    request.load = [listener](const SceneRequest& other) { return loadScene(other, listener); };
+    request.command = [o](const view::Viewed& viewed) { return commandOf(o, viewed); };
     request.notes = [source = o.scene.source, seed = o.picture.estimator.seed](
                         const RenderResult& result, const std::string& command) {
         const std::string samples =
@@ -158,10 +179,17 @@ void declareView(DeclaredCommand& c) {
                 o->viewTransform);
     list.text("--exposure", "EV", "radiance times 2^EV, to begin with; auto: metered", o->exposure);
     list.onOff("--denoise", "on: the page begins with the denoised picture", o->denoised);
+    list.text("--reference", "FILE",
+              "a picture (.exr, .hdr, .pfm, ...) that the page lays beside its own, with what "
+              "`compare` says of them; -r is its size",
+              o->reference)
+        .proposes(Proposed::Files)
+        .besidePicture();
     declarePicture(list, o->picture, *asked);
     declareEstimator(list, *o, *asked);
     declareSamples(list, o->picture, *asked,
                    "samples per pixel, on the mean over the picture, after which it is finished");
+    declareClamp(list, o->picture);
     declareBranches(list, o->picture, "4 where bounces make most of the noise, else 1");
     list.group("Sampling");
     list.flag("--even", "the same number of samples for every pixel", asked->even);
@@ -197,7 +225,9 @@ int viewCommand(const ViewOptions& o) {
     RenderSession session(o.device, sayingOnce(toTerminal())); // opens devices meanwhile
     LoadedScene scene = loadScene(o.scene, toTerminal());
     warnOfBlackPicture(*scene.scene, o.scene.source, o.picture, toTerminal());
-    view::LiveView live(session, exchange, liveRequest(o, std::move(scene)));
+    view::LiveRequest request = liveRequest(o, std::move(scene));
+    if (request.reference) serving.reference = request.reference->frame;
+    view::LiveView live(session, exchange, std::move(request));
     const view::Server server(serving, exchange);
     fmt::print("{}\n", server.address());
     std::fflush(stdout);

@@ -15,11 +15,12 @@ namespace stromboli::denoise {
 namespace {
 
 /// The filter's results, wherever it runs.
-std::vector<ReferenceResult> filter(const Prepared& picture, const vulkan::Device* device) {
+std::vector<ReferenceResult> filter(const Prepared& picture, const vulkan::Device* device,
+                                    const std::function<bool()>& isUnwanted) {
     if (!device) return filterOnHost(picture);
     std::vector<ReferenceResult> results;
     results.reserve(picture.pixels.size());
-    for (const gpu::DenoiseResult& r : DeviceFilter(*device).run(picture))
+    for (const gpu::DenoiseResult& r : DeviceFilter(*device).run(picture, isUnwanted))
         results.push_back({r.mean, r.shares, glm::dvec2(r.ownNoise, r.ownChange),
                            glm::dvec2(r.windowNoise, r.windowChange), r.ownVariance});
     return results;
@@ -79,10 +80,12 @@ double shareOfChange(const NoisyPicture& picture, const Prepared& prepared, size
     return wanted > allowed ? allowed / wanted : 1;
 }
 
-DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Device* device) {
+DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Device* device,
+                                const std::function<bool()>& isUnwanted) {
     Prepared prepared = prepare(picture);
     limitOutliers(prepared);
-    const std::vector<ReferenceResult> filtered = filter(prepared, device);
+    const std::vector<ReferenceResult> filtered = filter(prepared, device, isUnwanted);
+    if (filtered.empty()) return {};
     DenoisedPicture result{picture.width, picture.height};
     std::vector<PixelError> errors;
     errors.reserve(filtered.size());
@@ -133,8 +136,10 @@ void requireUsable(Denoiser which) {
 }
 
 DenoisedPicture denoisePicture(const NoisyPicture& picture, Denoiser which,
-                               const vulkan::Device* device) {
-    return which == Denoiser::Oidn ? denoiseByOidn(picture) : denoiseByFilter(picture, device);
+                               const vulkan::Device* device,
+                               const std::function<bool()>& isUnwanted) {
+    return which == Denoiser::Oidn ? denoiseByOidn(picture)
+                                   : denoiseByFilter(picture, device, isUnwanted);
 }
 
 const std::vector<std::string>& channelNames() {

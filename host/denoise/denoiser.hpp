@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,11 @@ void requireUsable(Denoiser which);
 
 /// Denoises by the program's own filter on a device, or without one by the reference filter, which
 /// is slower; or by Open Image Denoise on the CPU. Throws DeviceError, and UsageError with what
-/// Open Image Denoise says. `which` is not Off.
+/// Open Image Denoise says. `which` is not Off. isUnwanted: asked several times a second on a
+/// device; where it says so, the picture has no pixels.
 DenoisedPicture denoisePicture(const NoisyPicture& picture, Denoiser which,
-                               const vulkan::Device* device);
+                               const vulkan::Device* device,
+                               const std::function<bool()>& isUnwanted = {});
 
 /// The channels that a file has beside the denoised picture: the noisy one, and the predicted
 /// error.

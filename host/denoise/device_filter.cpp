@@ -62,6 +62,9 @@ constexpr std::array<const char*, DENOISE_BINDING_COUNT> kNames = {
 /// The most that one of them takes.
 constexpr uint64_t kLargest = *std::ranges::max_element(kBytesPerPixel);
 
+/// Of a dispatch, where somebody may want it no longer: a tenth of a second on two cores.
+constexpr uint32_t kRowsBetweenQuestions = 48;
+
 /// As for the path kernel's (docs/theory/kernel.md, "Fetch").
 bool prefersTexels(const vulkan::DeviceDescription& device, uint64_t pixels) {
     const std::vector<BufferUse> texels(passes()[1].bindings.size(), BufferUse::Texel);
@@ -95,7 +98,8 @@ DeviceFilter::DeviceFilter(const vulkan::Device& device, const FilterTuning& tun
     }
 }
 
-std::vector<gpu::DenoiseResult> DeviceFilter::run(const Prepared& picture) {
+std::vector<gpu::DenoiseResult> DeviceFilter::run(const Prepared& picture,
+                                                  const std::function<bool()>& isUnwanted) {
     std::vector<gpu::DenoiseResult> results(picture.pixels.size());
     if (results.empty()) return results;
     // A strip and what its results depend on above and below; a row at least, whether it fits or
@@ -120,7 +124,9 @@ std::vector<gpu::DenoiseResult> DeviceFilter::run(const Prepared& picture) {
         buffers.sets.emplace_back(device_, pipelines_[i], bound);
     }
     for (uint32_t first = 0; first < picture.height; first += stripRows)
-        runStrip(picture, {first, std::min(first + stripRows, picture.height)}, buffers, results);
+        if (!runStrip(picture, {first, std::min(first + stripRows, picture.height)}, buffers,
+                      isUnwanted, results))
+            return {};
     return results;
 }
 
@@ -128,7 +134,9 @@ DeviceFilter::Rows DeviceFilter::around(Rows rows, uint32_t reach, uint32_t heig
     return {rows.first - std::min(rows.first, reach), std::min(rows.end + reach, height)};
 }
 
-void DeviceFilter::runStrip(const Prepared& picture, Rows rows, Buffers& buffers,
+/// Returns false if it was given up.
+bool DeviceFilter::runStrip(const Prepared& picture, Rows rows, Buffers& buffers,
+                            const std::function<bool()>& isUnwanted,
                             std::vector<gpu::DenoiseResult>& results) {
     const Rows all = around(rows, kHalo, picture.height);
     // What each pass makes, so that the next has all that it looks at.
@@ -140,27 +148,41 @@ void DeviceFilter::runStrip(const Prepared& picture, Rows rows, Buffers& buffers
     buffers.all[DENOISE_BINDING_PIXELS].upload(
         queue_,
         std::as_bytes(std::span(picture.pixels).subspan(all.first * width, all.count() * width)));
-    queue_.run("denoise a picture", [&](VkCommandBuffer commands) {
-        for (size_t i = 0; i < pipelines_.size(); ++i) {
-            const gpu::DenoiseDispatch dispatch = {picture.width,
-                                                   picture.height,
-                                                   all.first,
-                                                   made[i].first,
-                                                   made[i].count(),
-                                                   uint32_t(taps_.size()),
-                                                   float(picture.floor * picture.floor)};
-            const uint64_t pixels = uint64_t(made[i].count()) * width;
-            vulkan::recordDispatch(
-                device_, commands, pipelines_[i], buffers.sets[i],
-                std::as_bytes(std::span(&dispatch, 1)),
-                uint32_t((pixels + DENOISE_GROUP_SIZE - 1) / DENOISE_GROUP_SIZE));
-        }
-    });
+    const auto record = [&](VkCommandBuffer commands, size_t pass, Rows part) {
+        const gpu::DenoiseDispatch dispatch = {picture.width,
+                                               picture.height,
+                                               all.first,
+                                               part.first,
+                                               part.count(),
+                                               uint32_t(taps_.size()),
+                                               float(picture.floor * picture.floor)};
+        const uint64_t pixels = uint64_t(part.count()) * width;
+        vulkan::recordDispatch(device_, commands, pipelines_[pass], buffers.sets[pass],
+                               std::as_bytes(std::span(&dispatch, 1)),
+                               uint32_t((pixels + DENOISE_GROUP_SIZE - 1) / DENOISE_GROUP_SIZE));
+    };
+    if (isUnwanted) {
+        for (size_t pass = 0; pass < pipelines_.size(); ++pass)
+            for (Rows part = made[pass]; part.count() > 0; part.first += kRowsBetweenQuestions) {
+                if (isUnwanted()) return false;
+                const uint32_t end = std::min(part.first + kRowsBetweenQuestions, part.end);
+                queue_.run("denoise rows", [&](VkCommandBuffer commands) {
+                    record(commands, pass, {part.first, end});
+                });
+                if (end == part.end) break;
+            }
+    } else {
+        queue_.run("denoise a picture", [&](VkCommandBuffer commands) {
+            for (size_t pass = 0; pass < pipelines_.size(); ++pass)
+                record(commands, pass, made[pass]);
+        });
+    }
     buffers.all[DENOISE_BINDING_RESULTS].download(
         queue_,
         std::as_writable_bytes(
             std::span(results).subspan(rows.first * width, rows.count() * width)),
         (rows.first - all.first) * width * sizeof(gpu::DenoiseResult));
+    return true;
 }
 
 } // namespace stromboli::denoise

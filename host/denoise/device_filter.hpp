@@ -7,6 +7,7 @@
 #include "shaders/shared/denoise_types.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -25,8 +26,10 @@ class DeviceFilter {
     /// The device must outlive the object. Throws DeviceError.
     explicit DeviceFilter(const vulkan::Device& device, const FilterTuning& tuning = {});
 
-    /// By pixel; radiance is over albedo, as in `picture`. Throws DeviceError.
-    std::vector<gpu::DenoiseResult> run(const Prepared& picture);
+    /// By pixel; radiance is over albedo, as in `picture`. isUnwanted: asked between dispatches,
+    /// which are short then; where it says so, nothing is returned. Throws DeviceError.
+    std::vector<gpu::DenoiseResult> run(const Prepared& picture,
+                                        const std::function<bool()>& isUnwanted = {});
 
   private:
     /// Rows of the picture.
@@ -41,7 +44,8 @@ class DeviceFilter {
     struct Buffers;
 
     Rows around(Rows rows, uint32_t reach, uint32_t height) const;
-    void runStrip(const Prepared& picture, Rows rows, Buffers& buffers,
+    bool runStrip(const Prepared& picture, Rows rows, Buffers& buffers,
+                  const std::function<bool()>& isUnwanted,
                   std::vector<gpu::DenoiseResult>& results);
 
     const vulkan::Device& device_;

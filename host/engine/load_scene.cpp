@@ -1,6 +1,7 @@
 #include "host/engine/load_scene.hpp"
 
 #include "host/checkpoint/scene_identity.hpp"
+#include "host/core/error.hpp"
 #include "host/core/system.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/read_scene.hpp"
@@ -46,6 +47,21 @@ GroundRequest under(const std::optional<Bounds>& bounds, GroundRequest ground) {
     return ground;
 }
 
+/// Turns the file's own environment. Returns what its rotation was.
+float turnOwnEnvironment(Scene& scene, const SceneRequest& request) {
+    if (environmentOf(request).isGiven()) return 0;
+    if (scene.environment) {
+        const float before = scene.environment->rotation;
+        scene.environment->rotation = rotationOf(request.environment, before);
+        return before;
+    }
+    if (request.environment.rotationDegrees != 0)
+        throw UsageError(fmt::format("--env-rotate turns an environment, and {} has none: --env "
+                                     "puts one around it",
+                                     request.source));
+    return 0;
+}
+
 void report(const LoadReport& lines, const Listener& listener) {
     for (const std::string& line : lines.warnings)
         listener.warn(line);
@@ -68,12 +84,13 @@ LoadedScene loadScene(const SceneRequest& request, const Listener& listener) {
             listener.info(fmt::format("{} is lit by the bundled {}, for which it was made",
                                       request.source, environment.file));
     }
+    const float rotationOfFile = turnOwnEnvironment(*scene, request);
     const std::optional<Bounds> atRest = boundsAtRest(request);
     if (request.ground.isGiven) addGround(*scene, under(atRest, request.ground));
     if (request.fog.isGiven()) addFog(*scene, request.fog);
     const double seconds = watch.seconds();
     report(scene->report, listener);
-    return {std::move(scene), seconds, atRest};
+    return {std::move(scene), seconds, atRest, rotationOfFile};
 }
 
 LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Listener& listener) {
@@ -82,13 +99,14 @@ LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Li
     const double seconds = watch.seconds();
     if (!moment.isMoment()) {
         before.scene->cameras = std::move(moment.cameras);
-        return {before.scene, seconds, before.atRest};
+        return {before.scene, seconds, before.atRest, before.rotationOfFile};
     }
+    const float rotationOfFile = turnOwnEnvironment(moment, request);
     if (request.environment.isGiven())
         addEnvironment(moment, std::move(*std::exchange(before.scene->environment, {})));
     if (request.ground.isGiven) addGround(moment, under(before.atRest, request.ground));
     if (request.fog.isGiven()) addFog(moment, request.fog);
-    return {std::make_shared<Scene>(std::move(moment)), seconds, before.atRest};
+    return {std::make_shared<Scene>(std::move(moment)), seconds, before.atRest, rotationOfFile};
 }
 
 // --- Building ------------------------------------------------------------------------------------

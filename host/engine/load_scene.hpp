@@ -54,6 +54,9 @@ struct LoadedScene {
     std::shared_ptr<Scene> scene;
     double seconds = 0;                ///< that reading took
     std::optional<Bounds> atRest = {}; ///< of an animation with a floor: without a pose of it
+    /// Environment::rotation of the file's own environment, before the request turns it; of any
+    /// other one 0 (rotationOf()).
+    float rotationOfFile = 0;
 };
 
 /// Reads or makes the scene, and reports what of its file was ignored, forgiven or assumed. Throws

@@ -30,10 +30,14 @@ namespace {
 /// Calls `take` with the first pixel of each run and what is seen in it.
 void lookAtAll(Viewer& viewer, const Film& film, Seeing what,
                const std::function<uint32_t(const PixelStatistics&)>& samplesOf,
-               const std::function<void(size_t, std::span<const SeenPixel>)>& take) {
+               const std::function<void(size_t, std::span<const SeenPixel>)>& take,
+               const std::function<bool()>& isUnwanted = {}) {
+    constexpr size_t kBetweenQuestions = 1 << 15;
     const size_t all = film.pixels.size();
-    for (size_t first = 0; first < all; first += Viewer::kMostSeenAtOnce) {
-        const size_t count = std::min<size_t>(Viewer::kMostSeenAtOnce, all - first);
+    const size_t most = isUnwanted ? kBetweenQuestions : Viewer::kMostSeenAtOnce;
+    for (size_t first = 0; first < all; first += most) {
+        if (isUnwanted && isUnwanted()) return;
+        const size_t count = std::min<size_t>(most, all - first);
         std::vector<uint32_t> samples(count);
         for (size_t i = 0; i < count; ++i)
             samples[i] = samplesOf(film.pixels[first + i]);
@@ -56,19 +60,21 @@ void addAlpha(FloatImage& image, Viewer& viewer, const Film& film) {
 
 /// Layers are those of the same camera rays, however far the render came.
 void addLayerChannels(FloatImage& image, Viewer& viewer, const Film& film, const Scene& scene,
-                      const Camera& camera, const RenderRequest& request) {
+                      const Camera& camera, const RenderRequest& request,
+                      const std::function<bool()>& isUnwanted = {}) {
     const uint32_t samples = std::min(kLayerSamples, request.budget.pathsPerPixel());
     lookAtAll(
         viewer, film, Seeing::Surfaces, [&](const PixelStatistics&) { return samples; },
         [&](size_t first, std::span<const SeenPixel> seen) {
             addLayers(image, request.layers, first, seen, scene, camera);
-        });
+        },
+        isUnwanted);
 }
 
 } // namespace
 
 FloatImage seenChannels(Viewer* viewer, const Film& film, const Scene& scene, const Camera& camera,
-                        const RenderRequest& request) {
+                        const RenderRequest& request, const std::function<bool()>& isUnwanted) {
     FloatImage image(film.area);
     for (const std::string& name : request.channels())
         image.channel(name);
@@ -78,7 +84,7 @@ FloatImage seenChannels(Viewer* viewer, const Film& film, const Scene& scene, co
     }
     if (request.transparent) addAlpha(image, *viewer, film);
     if (request.layers.empty()) return image;
-    addLayerChannels(image, *viewer, film, scene, camera, request);
+    addLayerChannels(image, *viewer, film, scene, camera, request, isUnwanted);
     return image;
 }
 

@@ -10,6 +10,7 @@
 #include "host/render/settings.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,8 +54,9 @@ void count(const Film& film, const RenderSettings& settings, RenderResult& resul
 /// The channels that a request asks for beside the radiance, of a film whose samples are taken
 /// (docs/guide/layers.md), by the viewer of its picture; without one, all that there is is opaque
 /// and unknown. Pixels without samples show the alpha of the ones that showNeighbours() shows.
+/// isUnwanted: asked several times a second; where it says so, layers are not complete.
 FloatImage seenChannels(Viewer* viewer, const Film& film, const Scene& scene, const Camera& camera,
-                        const RenderRequest& request);
+                        const RenderRequest& request, const std::function<bool()>& isUnwanted = {});
 
 /// The channels of the layers, pixel by pixel, as films of shares have them.
 std::vector<float> layersByPixel(Viewer& viewer, const Film& film, const Scene& scene,

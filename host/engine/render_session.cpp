@@ -278,33 +278,38 @@ FloatImage RenderSession::beside(const Film& film) {
 }
 
 /// A device that is lost sees nothing.
-FloatImage RenderSession::see(const Film& film, const RenderRequest& request) {
+FloatImage RenderSession::see(const Film& film, const RenderRequest& request,
+                              const std::function<bool()>& isUnwanted) {
     if (request.channels().empty()) return {};
     listener_.doing(Stage::Looking, "tracing alpha and layers");
     FloatImage seen = seenChannels(result_.lost ? nullptr : renderer_.viewer(), film, *scene_,
-                                   picture_.camera, request);
+                                   picture_.camera, request, isUnwanted);
     listener_.doing(Stage::Sampling, "taking samples");
     return seen;
 }
 
 /// The denoiser looks at layers, whether the request asks for them or not; they do not depend on
 /// the samples.
-const RenderSession::Denoised& RenderSession::denoisedNow() {
+const RenderSession::Denoised*
+RenderSession::denoisedNowUnless(const std::function<bool()>& isUnwanted) {
     const uint64_t samples = sampling_->samplesDone();
-    if (denoised_ && denoised_->samples == samples) return *denoised_;
+    if (denoised_ && denoised_->samples == samples) return &*denoised_;
     if (!guide_) {
         RenderRequest looks = request_;
         looks.transparent = false;
         looks.denoiser = Denoiser::Off;
         looks.layers = {Layer::Albedo, Layer::Normal, Layer::Depth};
-        guide_ = see(film(), looks);
+        FloatImage guide = see(film(), looks, isUnwanted);
+        if (isUnwanted && isUnwanted()) return nullptr;
+        guide_ = std::move(guide);
     }
     listener_.doing(Stage::Looking, "denoising");
     Denoised d{samples, denoise::noisyPictureOf(film(), sampling_->squaredErrors(), *guide_), {}};
     const Denoiser which = request_.denoiser == Denoiser::Off ? Denoiser::On : request_.denoiser;
-    d.picture = denoise::denoisePicture(d.noisy, which, renderer_.device());
+    d.picture = denoise::denoisePicture(d.noisy, which, renderer_.device(), isUnwanted);
     listener_.doing(Stage::Sampling, "taking samples");
-    return denoised_.emplace(std::move(d));
+    if (d.picture.mean.empty()) return nullptr;
+    return &denoised_.emplace(std::move(d));
 }
 
 /// Asked between passes alone, and before one begins, so that a render that was stopped there ends
@@ -356,6 +361,14 @@ const denoise::DenoisedPicture& RenderSession::denoised() {
     static_cast<void>(film()); // throws where there is none
     if (result_.lost) throw DeviceError(*result_.lost);
     return denoisedNow().picture;
+}
+
+const denoise::DenoisedPicture*
+RenderSession::denoisedUnless(const std::function<bool()>& isUnwanted) {
+    static_cast<void>(film()); // throws where there is none
+    if (result_.lost) throw DeviceError(*result_.lost);
+    const Denoised* const now = denoisedNowUnless(isUnwanted);
+    return now ? &now->picture : nullptr;
 }
 
 Checkpoint RenderSession::save() const {

@@ -74,10 +74,10 @@ class RenderSession {
     /// Begins the picture again with another camera.
     void moveCamera(const CameraRequest& camera);
     /// Begins the picture again in a scene that has become another one: numbers of materials,
-    /// lights, places of objects. The scene that was handed over stays as it is. A change of
-    /// materials and lights uploads their rows and builds nothing, but where a texture begins or
-    /// ceases to count; what the first motion of an object leaves where it is gets a tree of its
-    /// own, which later ones keep. A kernel is compiled only where materials and lights want
+    /// lights, places of objects, what is around it. The scene that was handed over stays as it is.
+    /// A change of materials and lights uploads their rows and builds nothing, but where a texture
+    /// begins or ceases to count; what the first motion of an object leaves where it is gets a tree
+    /// of its own, which later ones keep. A kernel is compiled only where materials and lights want
     /// another one. Throws std::invalid_argument (ChangingScene::apply()).
     void change(const SceneChange& change);
 
@@ -86,6 +86,8 @@ class RenderSession {
     const RenderRequest& request() const { return request_; }
     /// The scene of that picture.
     const Scene& scene() const { return *scene_; }
+    /// To begin another picture of it.
+    const std::shared_ptr<const Scene>& sharedScene() const { return scene_; }
 
     /// Takes samples until a pass is done or progress() asks to pause; the next call goes on.
     /// False: the picture is finished, cancelled, or its device is lost for good (result()). Throws
@@ -124,6 +126,9 @@ class RenderSession {
     /// the program's own. Kept until there are more samples. Throws std::logic_error before the
     /// first sample, DeviceError where the device is lost.
     const denoise::DenoisedPicture& denoised();
+    /// The same, for whoever may find out meanwhile that it is not wanted: asked several times a
+    /// second, and null where that says so.
+    const denoise::DenoisedPicture* denoisedUnless(const std::function<bool()>& isUnwanted);
 
     /// All that another session needs to go on: Keeping::begun. Throws UsageError of a picture in
     /// several bands, whose states are in their files.
@@ -149,12 +154,14 @@ class RenderSession {
         denoise::DenoisedPicture picture;
     };
     FloatImage beside(const Film& film);
-    FloatImage see(const Film& film, const RenderRequest& request);
+    FloatImage see(const Film& film, const RenderRequest& request,
+                   const std::function<bool()>& isUnwanted = {});
     const std::vector<float>& covered();
     void catchLight(const SessionEvents& events);
     Film takeCaught(Scene scene, const SessionEvents& events, std::vector<float>& coverage);
     bool denoises() const { return request_.denoiser != Denoiser::Off && !result_.lost; }
-    const Denoised& denoisedNow();
+    const Denoised& denoisedNow() { return *denoisedNowUnless({}); }
+    const Denoised* denoisedNowUnless(const std::function<bool()>& isUnwanted);
     bool isDenoisedEnough();
     void endDenoised(const SessionEvents& events);
 

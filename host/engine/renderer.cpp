@@ -257,12 +257,19 @@ void Renderer::sceneHasChanged(const std::shared_ptr<const Scene>& before,
                                const SceneChange& change) {
     if (!devices_ || !built_) return; // it is built when it is asked for
     if (builtOf_ != before) return;
-    if (!change.motions.empty() || wantsOtherTextures(built_->gpu, *scene, gatheredRows_)) {
+    const bool isOfRows = !change.materials.empty() || !change.lights.empty();
+    if (!change.motions.empty() ||
+        (isOfRows && wantsOtherTextures(built_->gpu, *scene, gatheredRows_))) {
         builtOf_ = nullptr;
         movedTo_ = scene;
         return;
     }
-    devices_->sceneHasChanged(repackMaterials(built_->gpu, *scene, builtFor_));
+    if (isOfRows || change.environment) {
+        devices_->sceneHasChanged(
+            repackMaterials(built_->gpu, *scene, builtFor_, change.environment != nullptr));
+    } else if (change.rotation) {
+        devices_->sceneHasChanged(turnEnvironment(built_->gpu, *change.rotation));
+    }
     builtOf_ = scene;
     scene_ = scene;
 }

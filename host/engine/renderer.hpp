@@ -101,9 +101,9 @@ class Renderer {
     void begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& picture, size_t channels);
 
     /// `before` has become `scene`, which may be the same object, by this change, while no picture
-    /// of it was under way. Of materials and lights it brings to the devices what has become
-    /// another, and builds nothing. Motions, and textures that begin or cease to count, are left to
-    /// the next begin(), which keeps trees of what has not moved, and texels.
+    /// of it was under way. Of materials, lights and the environment it brings to the devices what
+    /// has become another, and builds nothing. Motions, and textures that begin or cease to count,
+    /// are left to the next begin(), which keeps trees of what has not moved, and texels.
     void sceneHasChanged(const std::shared_ptr<const Scene>& before,
                          const std::shared_ptr<const Scene>& scene, const SceneChange& change);
 

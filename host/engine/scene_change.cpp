@@ -86,6 +86,15 @@ void requireLights(const Scene& scene, const std::map<uint32_t, Light>& lights) 
             refuse(fmt::format("light {} is of another kind, or is not there", number));
 }
 
+void requireEnvironment(const Scene& scene, const SceneChange& change) {
+    if (!change.rotation && !change.environment) return;
+    if (!scene.environment) refuse("the scene has no environment");
+    if (change.rotation && !std::isfinite(*change.rotation))
+        refuse("the rotation of the environment is not a finite number");
+    if (change.environment && change.environment->isConstant() != scene.environment->isConstant())
+        refuse("the environment is to be a picture where it is one, and else a constant");
+}
+
 } // namespace
 
 ChangingScene::ChangingScene(std::shared_ptr<const Scene> original)
@@ -200,6 +209,7 @@ void ChangingScene::makeOwn(Parts& parts) {
 void ChangingScene::require(const SceneChange& change) const {
     requireMaterials(*scene_, change.materials);
     requireLights(*scene_, change.lights);
+    requireEnvironment(*scene_, change);
     for (const auto& [instance, motion] : change.motions) {
         if (instance >= original_->instances.size())
             refuse(fmt::format("there is no instance {}: there are {}", instance,
@@ -286,6 +296,8 @@ void ChangingScene::apply(const SceneChange& change) {
         scene_->materials[number] = material;
     for (const auto& [number, light] : change.lights)
         scene_->lights[number] = light;
+    if (change.environment) scene_->environment = *change.environment;
+    if (change.rotation) scene_->environment->rotation = *change.rotation;
     for (const auto& [instance, motion] : change.motions)
         move(instance, motion);
 }

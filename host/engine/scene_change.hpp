@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace stromboli {
@@ -22,7 +23,11 @@ struct SceneChange {
     /// By instance: the motion from where the scene as it was read has it; the identity puts it
     /// back. An affine matrix that has an inverse and does not mirror; that of a sphere stretches
     /// all directions alike. A border of a medium that differs from place to place does not move.
-    std::map<uint32_t, glm::dmat4> motions;
+    std::map<uint32_t, glm::dmat4> motions = {};
+    /// Environment::rotation of the scene's environment, which only turns.
+    std::optional<float> rotation = {};
+    /// In place of the scene's environment, as of a sun that is elsewhere; a picture as that is.
+    std::shared_ptr<const Environment> environment = {};
 };
 
 /// A scene's copy that changes, again and again, while the scene itself stays as it is.

@@ -16,6 +16,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -190,7 +191,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes with every change of what is written.
-constexpr std::string_view kMagic = "stromboli film 2\n";
+constexpr std::string_view kMagic = "stromboli film 3\n";
 /// Not there in what is cut short.
 constexpr std::string_view kEnd = "end of film\n";
 
@@ -267,7 +268,9 @@ void FilmWriter::finish() {
     file_.rename(Sync::Now);
 }
 
-FilmReader::FilmReader(const fs::path& path) : path_(path) {
+FilmReader::FilmReader(const fs::path& path) : FilmReader(path, End::Wanted) {}
+
+FilmReader::FilmReader(const fs::path& path, End wanted) : path_(path) {
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     struct stat status = {};
     if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
@@ -283,8 +286,9 @@ FilmReader::FilmReader(const fs::path& path) : path_(path) {
             refuse("not a film of this version of the program");
         char end[kEnd.size()] = {};
         const auto place = off_t(size_ - std::min<uint64_t>(size_, kEnd.size()));
-        if (::pread(descriptor_, end, sizeof end, place) != ssize_t(sizeof end) ||
-            std::string_view(end, sizeof end) != kEnd)
+        if (wanted == End::Wanted &&
+            (::pread(descriptor_, end, sizeof end, place) != ssize_t(sizeof end) ||
+             std::string_view(end, sizeof end) != kEnd))
             refuse("the film is cut short");
         const std::vector<std::byte> bytes = readPart();
         header_ = filmHeaderFromBytes(bytes, path_);
@@ -353,6 +357,55 @@ std::vector<std::byte> FilmReader::readPart() {
     std::vector<std::byte> bytes = read(size);
     if (checksumOf(bytes) != sum) refuse("the film is damaged");
     return bytes;
+}
+
+// --- Films that are being written ----------------------------------------------------------------
+
+namespace {
+
+/// Whether the file has the first bytes of a film, or fewer of them than its header takes.
+bool beginsAsFilm(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::string beginning(kMagic.size(), 0);
+    stream.read(beginning.data(), std::streamsize(beginning.size()));
+    beginning.resize(size_t(stream.gcount()));
+    return kMagic.starts_with(beginning);
+}
+
+/// Whether the last bytes are those that a complete film ends with.
+bool hasEnd(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::string end(kEnd.size(), 0);
+    stream.seekg(-std::streamoff(kEnd.size()), std::ios::end);
+    return stream.read(end.data(), std::streamsize(end.size())) && end == kEnd;
+}
+
+} // namespace
+
+std::string inWords(const UnfinishedFilm& film) {
+    if (film.allRows == 0) return "is still being written: nothing of it is complete";
+    return fmt::format("is still being written: {} of {} rows are complete", film.rows,
+                       film.allRows);
+}
+
+std::optional<UnfinishedFilm> unfinishedFilm(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error) || !beginsAsFilm(path) || hasEnd(path))
+        return std::nullopt;
+    UnfinishedFilm film;
+    try {
+        FilmReader reader(path, FilmReader::End::MayBeMissing);
+        const Crop all = reader.header().settings.area.rendered();
+        film.allRows = all.height;
+        std::vector<float> layers;
+        while (film.rows < film.allRows) {
+            const size_t pixels = reader.next().size();
+            reader.nextLayers(layers);
+            film.rows += uint32_t(pixels / all.width);
+        }
+    } catch (const UsageError&) { // here it ends
+    }
+    return film;
 }
 
 } // namespace stromboli

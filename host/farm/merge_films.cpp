@@ -44,22 +44,32 @@ bool isLater(const FilmReader& a, const FilmReader& b) {
 
 } // namespace
 
-FilmsToMerge::FilmsToMerge(const std::vector<std::filesystem::path>& files) {
+FilmsToMerge::FilmsToMerge(
+    const std::vector<std::filesystem::path>& files,
+    const std::function<void(const std::filesystem::path&, const UnfinishedFilm&)>& leaveOut) {
     allowManyFiles();
     std::vector<FilmReader> films;
+    const std::filesystem::path* first = nullptr;
     for (const std::filesystem::path& file : files) {
+        if (leaveOut)
+            if (const std::optional<UnfinishedFilm> unfinished = unfinishedFilm(file)) {
+                leaveOut(file, *unfinished);
+                continue;
+            }
         FilmReader film(file);
-        if (&file == &files.front()) {
+        if (!first) {
+            first = &file;
             header_ = film.header();
         } else {
             const std::string difference = differenceOf(header_, film.header());
             if (!difference.empty())
                 throw UsageError(fmt::format("{} {}; {} is the first", file.string(), difference,
-                                             files.front().string()));
+                                             first->string()));
             add(header_, film.header(), file);
         }
         if (!film.header().isEmpty()) films.push_back(std::move(film));
     }
+    if (!first) throw UsageError("none of the films is complete yet");
     std::vector<size_t> order(films.size());
     std::iota(order.begin(), order.end(), size_t(0));
     std::ranges::sort(order, [&](size_t a, size_t b) { return isLater(films[a], films[b]); });

@@ -16,7 +16,11 @@ class FilmsToMerge {
   public:
     /// Opens all of them. Throws UsageError that names the file if one cannot be read, is of
     /// another picture than the first, or holds samples that another holds too.
-    explicit FilmsToMerge(const std::vector<std::filesystem::path>& files);
+    /// leaveOut: told of each file that is still being written, which is left out; empty: that is
+    /// an error. So it is if none is complete.
+    explicit FilmsToMerge(const std::vector<std::filesystem::path>& files,
+                          const std::function<void(const std::filesystem::path& file,
+                                                   const UnfinishedFilm& film)>& leaveOut = {});
 
     /// The header of the film that they make together.
     const FilmHeader& header() const { return header_; }

@@ -194,12 +194,13 @@ bool wantsOtherTextures(const GpuScene& packed, const Scene& scene, uint64_t gat
 }
 
 std::vector<uint32_t> repackMaterials(GpuScene& packed, const Scene& scene,
-                                      const LightSelection& lights) {
+                                      const LightSelection& lights, bool hasOtherEnvironment) {
     const std::vector<Row> materials = std::move(packed.materials);
     const std::vector<gpu::Primitive> primitives = std::move(packed.primitives);
     const LightTable before = std::move(packed.lights);
-    packRest(packed, scene, lights, before.environment);
+    packRest(packed, scene, lights, hasOtherEnvironment ? nullptr : before.environment);
     std::vector<uint32_t> changed;
+    if (hasOtherEnvironment) changed.push_back(BINDING_ENVIRONMENT);
     const auto differ = [](const auto& a, const auto& b) {
         return !std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
     };
@@ -210,6 +211,11 @@ std::vector<uint32_t> repackMaterials(GpuScene& packed, const Scene& scene,
     if (differ(before.table, packed.lights.table)) changed.push_back(BINDING_LIGHT_TABLE);
     packed.gapWidth = lights.emitters ? gapWidth(packed) : 0;
     return changed;
+}
+
+std::vector<uint32_t> turnEnvironment(GpuScene& packed, float rotation) {
+    turnEnvironment(packed.lights, rotation);
+    return {BINDING_LIGHTS};
 }
 
 // --- The gap -------------------------------------------------------------------------------------

@@ -61,9 +61,15 @@ bool wantsOtherTextures(const GpuScene& packed, const Scene& scene, uint64_t gat
 
 /// Brings into `packed`, which was packed from `scene` with the same `lights`, what has become of
 /// the numbers of its materials (differInNumbers()). The tree and the textures stay as they are.
-/// Returns the bindings (BINDING_ of shaders/shared/interface.h) whose contents have changed.
+/// hasOtherEnvironment: there is another environment around the scene too. Returns the bindings
+/// (BINDING_ of shaders/shared/interface.h) whose contents have changed.
 std::vector<uint32_t> repackMaterials(GpuScene& packed, const Scene& scene,
-                                      const LightSelection& lights);
+                                      const LightSelection& lights,
+                                      bool hasOtherEnvironment = false);
+
+/// Gives the scene's environment another rotation, in radians. Its tables stay as they are. Returns
+/// the bindings whose contents have changed.
+std::vector<uint32_t> turnEnvironment(GpuScene& packed, float rotation);
 
 /// First row of the primitive's material.
 inline uint32_t materialOf(const gpu::Primitive& p) {

@@ -3,6 +3,7 @@
 #include "host/kernel/light_guide.hpp"
 #include "host/kernel/path_kernel.hpp"
 #include "host/kernel/sampling_tables.hpp"
+#include "host/render/kept_film.hpp"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/wavefront_types.h"
 
@@ -216,17 +217,6 @@ std::span<const std::byte> bytesOf(const std::vector<gpu::PixelState>& states) {
     return std::as_bytes(std::span(states));
 }
 
-PixelStatistics statisticsOf(const gpu::PixelState& s) {
-    PixelStatistics p;
-    p.count = s.count;
-    p.rejected = s.rejected;
-    if (s.rejected > 0) p.firstRejected = s.firstRejected;
-    if (s.count == 0) return p;
-    p.mean = (glm::dvec3(s.sum) + glm::dvec3(s.sumError)) / double(s.count);
-    p.m2 = glm::dvec3(s.m2) + glm::dvec3(s.m2Error);
-    return p;
-}
-
 PixelSums sumsOf(const gpu::PixelState& s) {
     return {.count = s.count,
             .rejected = s.rejected,
@@ -235,6 +225,10 @@ PixelSums sumsOf(const gpu::PixelState& s) {
             .firstError = s.sumError,
             .second = s.m2,
             .secondError = s.m2Error};
+}
+
+PixelStatistics statisticsOf(const gpu::PixelState& s) {
+    return statisticsOf(sumsOf(s), KeptSums::Sums);
 }
 
 gpu::PixelState stateOf(const PixelSums& s) {

@@ -258,6 +258,7 @@ FeatureValue count(const char* unit) {
 }
 const FeatureValue flag = {FeatureValue::Kind::Flag, {}};
 const FeatureValue share = {FeatureValue::Kind::Share, {}};
+const FeatureValue number = {FeatureValue::Kind::Number, {}};
 
 /// By TEXTURE_ slot.
 const std::vector<const char*> kTextureSlots = {"base color",
@@ -328,6 +329,8 @@ std::string valueText(const Feature& feature, uint32_t value) {
     case FeatureValue::Kind::Share:
         return value != 0 ? fmt::format("{:.0f} %", 100 * double(std::bit_cast<float>(value)))
                           : "none";
+    case FeatureValue::Kind::Number:
+        return value != 0 ? fmt::format("{:g}", std::bit_cast<float>(value)) : "none";
     }
     return "";
 }

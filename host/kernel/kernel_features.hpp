@@ -48,7 +48,8 @@ struct FeatureValue {
         Bits,   ///< a set: bit n stands for names[n]
         Choice, ///< n stands for names[n]
         Count,  ///< a number of names[0]
-        Share,  ///< a float
+        Share,  ///< a float, in percent
+        Number, ///< a float
     };
     Kind kind;
     std::vector<const char*> names;

@@ -299,6 +299,15 @@ LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
     return Packer(scene, placeOf, selection, pictures, std::move(environment)).pack();
 }
 
+/// It is the first of all lights; its parameters are behind its header.
+void turnEnvironment(LightTable& lights, float rotation) {
+    if (!lights.environment) return;
+    lights.environment = std::make_shared<EnvironmentTable>(turned(*lights.environment, rotation));
+    std::vector<Row> parameters;
+    appendRows(parameters, lights.environment->light);
+    std::ranges::copy(parameters, lights.lights.begin() + sizeof(gpu::LightHeader) / sizeof(Row));
+}
+
 // --- Samples of direct light ---------------------------------------------------------------------
 
 namespace {

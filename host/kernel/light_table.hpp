@@ -56,7 +56,7 @@ struct LightTable {
 
     /// EnvironmentTexel rows; empty: there is no picture.
     std::span<const Row> environmentRows() const {
-        return environment ? std::span<const Row>(environment->texels) : std::span<const Row>();
+        return environment ? std::span(*environment->texels) : std::span<const Row>();
     }
 };
 
@@ -66,6 +66,9 @@ struct LightTable {
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       const LightSelection& selection, std::span<const uint32_t> pictures = {},
                       std::shared_ptr<const EnvironmentTable> environment = {});
+
+/// Gives the environment's picture, if there is one, another rotation (radians).
+void turnEnvironment(LightTable& lights, float rotation);
 
 // --- Samples of direct light ---------------------------------------------------------------------
 

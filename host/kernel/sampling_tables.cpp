@@ -185,8 +185,8 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     std::vector<double> weights(tiles.count()), sines;
     for (uint32_t y = 0; y < height; ++y)
         sines.push_back(std::sin(glm::pi<double>() * (y + 0.5) / height));
-    table.texels.resize(gpu::ENVIRONMENT_COLUMN_ROWS + count);
-    const std::span<Row> texels = std::span(table.texels).subspan(gpu::ENVIRONMENT_COLUMN_ROWS);
+    const auto rows = std::make_shared<std::vector<Row>>(gpu::ENVIRONMENT_COLUMN_ROWS + count);
+    const std::span<Row> texels = std::span(*rows).subspan(gpu::ENVIRONMENT_COLUMN_ROWS);
     tbb::parallel_for(0u, tiles.count(), [&](uint32_t tile) {
         weights[tile] = packTile(environment, tiles, tile, sines, texels);
     });
@@ -195,18 +195,23 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     for (double& weight : weights)
         weight /= sum;
     table.tileProbability = weights;
-    std::ranges::copy(tileTable(weights).rows, table.texels.begin());
+    std::ranges::copy(tileTable(weights).rows, rows->begin());
+    table.texels = rows;
     // A texel's solid angle is 2 pi / width times pi / height times its sine.
     const double texelsPerAngle = double(count) / (2 * glm::pi<double>() * glm::pi<double>());
     table.light.width = width;
     table.light.height = height;
-    table.light.cosRotation = std::cos(environment.rotation);
-    table.light.sinRotation = std::sin(environment.rotation);
     table.light.density = float(texelsPerAngle / sum);
     table.light.tileShift = tiles.shift;
     table.light.tilesAcross = tiles.across;
     table.light.tiles = tiles.count();
     table.luminance = sum / texelsPerAngle * environment.strength;
+    return turned(std::move(table), environment.rotation);
+}
+
+EnvironmentTable turned(EnvironmentTable table, float rotation) {
+    table.light.cosRotation = std::cos(rotation);
+    table.light.sinRotation = std::sin(rotation);
     return table;
 }
 

@@ -6,6 +6,7 @@
 #include "shaders/shared/light_types.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,13 +29,17 @@ std::vector<AliasColumn> buildAliasTable(std::span<const double> weights);
 
 /// An environment in the arrays that the kernel reads.
 struct EnvironmentTable {
-    std::vector<Row> texels;             ///< TileColumns rows, then EnvironmentTexel rows
+    /// TileColumns rows, then EnvironmentTexel rows; null: the picture is black. Those of an
+    /// environment that is turned are the same.
+    std::shared_ptr<const std::vector<Row>> texels;
     std::vector<double> tileProbability; ///< of a light sample to go to each tile, by weight
     gpu::EnvironmentLight light{};
     double luminance = 0; ///< integral over all directions, of the radiance times the strength
 };
 
 EnvironmentTable packEnvironment(const Environment& environment);
+/// The table of the same environment with another rotation (radians).
+EnvironmentTable turned(EnvironmentTable table, float rotation);
 
 /// By what the kernel picks a tile of an environment.
 struct TileTable {

@@ -132,8 +132,10 @@ bool PathSample::scatter(uint32_t bounce) {
     const bool hit = arrive(ray, {start});
     glm::dvec3 light(0.0);
     if (largest(found) > 0)
-        light = throughput_ * found *
-                (hit ? emission(surface_) : world_.lights.ambientRadiance(next.direction));
+        light =
+            limited(throughput_ * found *
+                        (hit ? emission(surface_) : world_.lights.ambientRadiance(next.direction)),
+                    bounce);
     radiance_ += light;
     noteArrival(ray, hit, light);
     return hit;
@@ -195,7 +197,8 @@ bool PathSample::scattersInMedium(const Ray& ray, double from, double to) {
     const auto number = size_t(filling_.medium - world_.scene.media.data());
     const MediumEvent event = flyThrough(*filling_.medium, world_.mostExtinction[number], ray, from,
                                          to, throughput_, passes_);
-    if (scatterings_ >= settings_.minBounce) radiance_ += throughput_ * event.shone;
+    if (scatterings_ >= settings_.minBounce)
+        radiance_ += limited(throughput_ * event.shone, scatterings_);
     throughput_ *= event.weight;
     if (event.scatters) surface_ = pointInMedium(ray, event.distance, *filling_.medium);
     return event.scatters;
@@ -334,10 +337,16 @@ void PathSample::addLightSample(const LightSample& light, const glm::dvec3& f) {
     ++rays_;
     const glm::dvec3 passes =
         shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
-    radiance_ += throughput_ * value * passes;
+    const glm::dvec3 brings = limited(throughput_ * value * passes, scatterings_ + 1);
+    radiance_ += brings;
     noteLight(light,
               largest(passes) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow,
-              throughput_ * value * passes);
+              brings);
+}
+
+glm::dvec3 PathSample::limited(const glm::dvec3& light, uint32_t scatterings) const {
+    const double most = largest(light), limit = settings_.indirectLimit;
+    return limit > 0 && scatterings > 1 && most > limit ? light * (limit / most) : light;
 }
 
 void PathSample::addHemisphereSamples() {
@@ -366,7 +375,8 @@ void PathSample::addHemisphereSamples() {
         const Filling filling = beyond(looksBehind());
         if (filling.medium) found *= transmittance(*filling.medium, ray, 0, distance);
         const glm::dvec3 light =
-            throughput_ * weight * found * transmittance(filling.volume, distance);
+            limited(throughput_ * weight * found * transmittance(filling.volume, distance),
+                    scatterings_ + 1);
         radiance_ += light;
         LightSample looked;
         looked.direction = direction;

@@ -120,6 +120,8 @@ class PathSample {
     void addHemisphereSamples();
     /// f: what the surface scatters of it.
     void addLightSample(const LightSample& light, const glm::dvec3& f);
+    /// Light that was scattered so many times: no more than Estimator::indirectLimit of it.
+    glm::dvec3 limited(const glm::dvec3& light, uint32_t scatterings) const;
 
     // Where the path is recorded; else these do nothing.
     void noteArrival(const Ray& ray, bool hits, const glm::dvec3& light);

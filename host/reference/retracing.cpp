@@ -97,7 +97,9 @@ void PathSample::retraceLight(const RecordedLight& taken) {
         ++rays_;
         const glm::dvec3 passes =
             shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
-        brings = throughput_ * value * passes * transmittance(filling.volume, taken.distance);
+        brings =
+            limited(throughput_ * value * passes * transmittance(filling.volume, taken.distance),
+                    scatterings_ + 1);
         fate = largestOf(passes) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow;
     }
     radiance_ += brings;
@@ -148,22 +150,25 @@ RecordedPath PathSample::retrace(const RecordedPath& taken) {
     SurfacePoint surface; // where the path splits
     Filling filling;
     glm::dvec3 throughput(1.0);
+    uint32_t scatterings = 0;
     for (const RecordedVertex& vertex : taken.vertices) {
         branch_ = vertex.branch;
         if (vertex.returns) {
             surface_ = surface;
             filling_ = filling;
             throughput_ = throughput;
+            scatterings_ = scatterings;
             noteReturn();
         } else {
             ++rays_;
             const bool hits = arriveWhere(vertex, ray, skip, fromCamera);
             glm::dvec3 light(0.0);
             if (largestOf(vertex.light) > 0) // else it is found by light samples
-                light = throughput_ * vertex.weight *
-                        (hits         ? emission(surface_)
-                         : fromCamera ? world_.lights.backdrop(ray.direction)
-                                      : world_.lights.ambientRadiance(ray.direction));
+                light = limited(throughput_ * vertex.weight *
+                                    (hits         ? emission(surface_)
+                                     : fromCamera ? world_.lights.backdrop(ray.direction)
+                                                  : world_.lights.ambientRadiance(ray.direction)),
+                                scatterings_);
             noteArrival(ray, hits, light);
             own.vertices.back().weight = vertex.weight;
             own.vertices.back().goesOn = vertex.goesOn;
@@ -179,8 +184,12 @@ RecordedPath PathSample::retrace(const RecordedPath& taken) {
             surface = surface_;
             filling = filling_;
             throughput = throughput_;
+            scatterings = scatterings_;
         }
-        if (vertex.bounce) retraceBounce(*vertex.bounce, ray, skip);
+        if (vertex.bounce) {
+            retraceBounce(*vertex.bounce, ray, skip);
+            ++scatterings_;
+        }
     }
     own.radiance = sumOf(own);
     own.rejected = false;

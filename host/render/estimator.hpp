@@ -222,6 +222,9 @@ struct Estimator {
     /// estimator.md, "Learned light samples"), not by its brightness alone.
     bool guidesLight = false;
     Roulette roulette;
+    /// The most that light may bring which was scattered twice or more, by each way on which a path
+    /// finds it, in its brightest channel; the rest is dropped. 0: all that it brings. Biased.
+    double indirectLimit = 0;
     uint32_t seed = 0;
     bool showsBackdrop = true; ///< the camera sees the environment, where the scene has one
     ShadingConventions conventions;

@@ -18,7 +18,7 @@ namespace stromboli {
 namespace {
 
 /// Changes with every change of what is written.
-constexpr std::string_view kVersion = "stromboli session 8";
+constexpr std::string_view kVersion = "stromboli session 9";
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, glm::dvec3>;
@@ -86,7 +86,7 @@ void pass(Archive& a, Estimator& e) {
     a(e.sampler), a(e.filter), a(e.lightChoice), a(e.branches), a(e.gapProposal), a(e.guidesLight),
         a(e.roulette.mode);
     a(e.roulette.terminationProbability), a(e.roulette.throughputStart), a(e.seed),
-        a(e.showsBackdrop);
+        a(e.showsBackdrop), a(e.indirectLimit);
     pass(a, e.filterShape);
     pass(a, e.conventions);
 }

@@ -40,6 +40,10 @@ void Steering::add(const Steering& later) {
     replace(fileCamera, later.fileCamera);
     replace(moving, later.moving);
     replace(paused, later.paused);
+    replace(turn, later.turn);
+    replace(sun, later.sun);
+    replace(variant, later.variant);
+    replace(seconds, later.seconds);
 }
 
 // --- Servers -------------------------------------------------------------------------------------

@@ -30,14 +30,27 @@ struct Pose {
     bool operator==(const Pose&) const = default;
 };
 
+/// Where the sun of a sky stands, as --sun says it: degrees.
+struct SunPlace {
+    double azimuth = 0, elevation = 45;
+
+    bool operator==(const SunPlace&) const = default;
+};
+
 /// What is to change; what is empty stays as it is.
 struct Steering {
     std::optional<Pose> pose;
     std::optional<size_t> fileCamera; ///< its place in Scene::cameras
     std::optional<bool> moving;       ///< more will follow at once
     std::optional<bool> paused;
+    std::optional<double> turn; ///< of the environment, as --env-rotate: degrees
+    std::optional<SunPlace> sun;
+    /// A set of materials of the file, its place in Scene::variants; negative: the file's own.
+    std::optional<int> variant;
+    std::optional<double> seconds; ///< of the file's animation; negative: what stands without it
 
-    bool isEmpty() const { return !pose && !fileCamera && !moving && !paused; }
+    bool operator==(const Steering&) const = default;
+    bool isEmpty() const { return *this == Steering(); }
     /// What comes later takes the place of what was before.
     void add(const Steering& later);
 };

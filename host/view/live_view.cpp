@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -11,9 +12,8 @@
 namespace stromboli::view {
 namespace {
 
-/// The first picture after a move is to take at most so many seconds, so that there are two a
-/// second of a view that moves, with time to spare.
-constexpr double kSlowCoarse = 0.3;
+/// The first picture after a move is to take at most so many seconds, denoised if that is shown.
+constexpr double kSlowCoarse = 0.25;
 constexpr uint32_t kFinest = 2, kCoarsest = 16;
 /// One of full size that shows nothing for longer has finer ones before it.
 constexpr double kLongWait = 0.7;
@@ -23,18 +23,30 @@ constexpr uint32_t kCoarseSamples = 2;
 constexpr double kRest = 0.4;
 constexpr double kLook = 0.1; ///< seconds between two looks at what else there is to do
 
+void requireSize(const compare::Picture& reference, const Crop& picture) {
+    if (reference.width == picture.width && reference.height == picture.height) return;
+    throw UsageError(fmt::format("the reference has {} x {} pixels, and the picture {} x {}: give "
+                                 "-r and --crop of the reference, or neither",
+                                 reference.width, reference.height, picture.width, picture.height));
+}
+
 } // namespace
 
 LiveView::LiveView(RenderSession& session, Exchange& exchange, LiveRequest request)
     : session_(session), exchange_(exchange), request_(std::move(request)),
-      showing_(session, exchange) {
-    session_.begin(request_.scene.scene, request_.picture);
+      showing_(session, exchange), scene_(request_.scene.scene), loading_(request_.load),
+      asked_(request_.source) {
+    session_.begin(scene_, request_.picture);
     const RenderSettings& settings = session_.picture().settings;
     full_ = {settings.area.width, settings.area.height};
     // All pictures have the kernel of the first: size and branches are settled.
     request_.picture.size = full_;
     request_.picture.crop = settings.area.crop;
     request_.picture.branches = settings.estimator.branches;
+    if (request_.reference) {
+        requireSize(request_.reference->picture, settings.area.rendered());
+        showing_.compareWith(request_.reference);
+    }
     beginFirst();
 }
 
@@ -73,7 +85,7 @@ void LiveView::beginCoarse(uint32_t coarseness) {
     }
     request.budget = {};
     request.budget.mostPathsPerPixel = kCoarseSamples * request_.picture.branches.value_or(1);
-    session_.begin(request_.scene.scene, request);
+    session_.begin(scene_, request);
     isCoarse_ = true;
     isOver_ = false;
     level_ = coarseness;
@@ -82,29 +94,104 @@ void LiveView::beginCoarse(uint32_t coarseness) {
 }
 
 void LiveView::beginFull() {
-    session_.begin(request_.scene.scene, requestNow());
+    session_.begin(scene_, requestNow());
     isCoarse_ = false;
     isOver_ = false;
     samplesDone_ = 0;
     showing_.beginPicture();
 }
 
+// --- What is asked for ---------------------------------------------------------------------------
+
 void LiveView::steer(const Steering& steering) {
     if (steering.paused) isPaused_ = *steering.paused;
     if (steering.moving) isMoving_ = *steering.moving;
     sinceSteering_ = {};
     isStale_ = true;
-    if (steering.fileCamera && *steering.fileCamera >= request_.scene.scene->cameras.size()) return;
-    if (!steering.pose && !steering.fileCamera) return;
+    reload(steering);
+    EnvironmentRequest around = request_.source.environment;
+    if (steering.turn && !around.sun) around.rotationDegrees = *steering.turn;
+    if (steering.sun && around.sun) {
+        around.sun->azimuth = steering.sun->azimuth;
+        around.sun->elevation = steering.sun->elevation;
+    }
     const auto before = std::pair(pose_, fileCamera_);
-    pose_ = steering.pose;
-    fileCamera_ = steering.fileCamera;
+    const bool isRelit = relight(around), isElsewhere = look(steering);
+    if (!isRelit && !isElsewhere) return;
     try {
         beginFirst();
     } catch (const SceneError&) { // no camera can be there: the view stays where it was
         std::tie(pose_, fileCamera_) = before;
         beginFirst();
     }
+}
+
+bool LiveView::look(const Steering& steering) {
+    if (steering.fileCamera && *steering.fileCamera >= scene_->cameras.size()) return false;
+    if (!steering.pose && !steering.fileCamera) return false;
+    pose_ = steering.pose;
+    fileCamera_ = steering.fileCamera;
+    return true;
+}
+
+/// A turn leaves the environment's tables as they are; so does the azimuth of a sun.
+bool LiveView::relight(const EnvironmentRequest& wanted) {
+    EnvironmentRequest& now = request_.source.environment;
+    if (!scene_->environment || scene_->environment->isConstant()) return false;
+    SceneChange change;
+    change.rotation = rotationOf(wanted, request_.scene.rotationOfFile);
+    if (wanted.sun && wanted.sun->elevation != now.sun->elevation) {
+        auto sky = std::make_shared<Environment>(environmentOf(*wanted.sun));
+        sky->strength = scene_->environment->strength;
+        change.environment = std::move(sky);
+    }
+    now = asked_.environment = wanted;
+    if (!change.environment && *change.rotation == scene_->environment->rotation) return false;
+    session_.change(change);
+    scene_ = session_.sharedScene();
+    return true;
+}
+
+/// Another set of materials or another moment is read from the file.
+void LiveView::reload(const Steering& steering) {
+    FileSelection wanted = asked_.reading.selection;
+    const std::vector<std::string>& names = scene_->variants;
+    if (steering.variant && *steering.variant < int(names.size()))
+        wanted.variant = *steering.variant < 0 ? "" : names[size_t(*steering.variant)];
+    if (steering.seconds && scene_->animationSeconds > 0) {
+        wanted.seconds = steering.seconds;
+        if (*steering.seconds < 0) wanted.seconds.reset();
+    }
+    FileSelection& asked = asked_.reading.selection;
+    if (wanted.variant == asked.variant && wanted.seconds == asked.seconds) return;
+    asked = wanted;
+    problem_.clear();
+    loading_.ask(asked_);
+}
+
+void LiveView::takeLoaded() {
+    std::optional<SceneLoading::Loaded> loaded = loading_.take();
+    if (!loaded) return;
+    isStale_ = true;
+    if (!loaded->scene.scene) {
+        problem_ = loaded->problem;
+        asked_.reading.selection = request_.source.reading.selection;
+        return;
+    }
+    if (fileCamera_ && *fileCamera_ >= loaded->scene.scene->cameras.size()) fileCamera_.reset();
+    try {
+        session_.begin(loaded->scene.scene, requestNow());
+    } catch (const SceneError& error) { // no camera can be there
+        problem_ = error.what();
+        asked_.reading.selection = request_.source.reading.selection;
+        return beginFirst();
+    }
+    const EnvironmentRequest around = request_.source.environment;
+    request_.scene = std::move(loaded->scene);
+    request_.source = std::move(loaded->request);
+    scene_ = request_.scene.scene;
+    relight(around); // may have been steered meanwhile
+    beginFirst();
 }
 
 /// The first picture after a move is finished whatever happens, so that there is always one to be
@@ -123,7 +210,7 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
         samplesDone_ =
             progress.samplesDone / session_.picture().settings.estimator.branches; // of paths
         const bool isFit = samplesDone_ >= session_.picture().settings.area.pixelCount();
-        const bool isWanted = exchange_.isSteered() || exchange_.isAsked() ||
+        const bool isWanted = exchange_.isSteered() || exchange_.isAsked() || loading_.isReady() ||
                               (!isCoarse_ && isFit && showing_.isDue());
         return isWanted ? Next::Pause : Next::GoOn;
     };
@@ -134,12 +221,11 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
     raysPerSecond_ = seconds > 0 ? double(std::max(raysNow, rays())) / seconds : 0;
 }
 
-/// The first picture after the next move takes about as long as is pleasant.
-void LiveView::endCoarse() {
-    // Before the very first one a kernel was compiled.
-    coarseSeconds_ = epoch_ == 1 ? session_.result().renderSeconds : showing_.secondsOfPicture();
+/// The first picture after the next move takes about as long as is pleasant, until it is shown.
+void LiveView::chooseCoarseness() {
     if (!isFirst_) return;
-    double seconds = coarseSeconds_;
+    // Before the very first one a kernel was compiled, and the denoiser's were.
+    double seconds = epoch_ == 1 ? coarseSeconds_ : showing_.secondsOfPicture();
     for (; seconds > kSlowCoarse && coarseness_ < kCoarsest; seconds /= 4)
         coarseness_ *= 2;
     for (; seconds * 4 < 0.8 * kSlowCoarse && coarseness_ > kFinest; seconds *= 4)
@@ -162,7 +248,10 @@ void LiveView::attend() {
     const bool isFit = rests || samplesDone_ >= session_.picture().settings.area.pixelCount();
     if ((isStale_ && exchange_.isAwaited() && isFit && (rests || showing_.isDue())) ||
         (rests && exchange_.lacksAFrame())) {
-        showing_.show(state());
+        // A coarse picture is always shown; one of full size may take longer than a move can wait.
+        showing_.show(state(), false, [this] {
+            return !isCoarse_ && (exchange_.isSteered() || loading_.isReady());
+        });
         isStale_ = false;
     }
     exchange_.answer(*this);
@@ -170,18 +259,24 @@ void LiveView::attend() {
 
 void LiveView::run(const std::function<bool()>& wantsToEnd) {
     while (!wantsToEnd()) {
+        if (loading_.isReady()) takeLoaded();
         if (exchange_.isSteered()) steer(exchange_.takeSteering());
         if (!isOver_ && (isCoarse_ || !isPaused_)) {
             pass(wantsToEnd);
             if (wantsToEnd()) break;
-            if (isOver_ && isCoarse_) endCoarse();
+            // Before the very first one a kernel was compiled.
+            if (isOver_ && isCoarse_)
+                coarseSeconds_ =
+                    epoch_ == 1 ? session_.result().renderSeconds : showing_.secondsOfPicture();
         }
         if (isCoarse_ && !isOver_) { // what there is of it is not worth showing yet
             exchange_.answer(*this);
             continue;
         }
+        const bool isNew = isStale_;
         attend();
         if (isCoarse_) {
+            if (isNew) chooseCoarseness();
             if (exchange_.isSteered()) continue;
             if (isPaused_) { // the coarse picture is what there is to be seen
                 exchange_.waitForWork(kLook);
@@ -208,7 +303,19 @@ ShownState LiveView::state() const {
     const Crop& crop = request_.picture.crop;
     s.fullWidth = crop.width > 0 ? crop.width : full_.width;
     s.fullHeight = crop.width > 0 ? crop.height : full_.height;
-    s.state = isPaused_ ? "paused" : isOver_ && !isCoarse_ ? "done" : "rendering";
+    s.state = loading_.isUnderWay()   ? "loading"
+              : isPaused_             ? "paused"
+              : isOver_ && !isCoarse_ ? "done"
+                                      : "rendering";
+    s.problem = problem_;
+    const SceneRequest& source = asked_;
+    const bool isPicture = scene_->environment && !scene_->environment->isConstant();
+    if (source.environment.sun)
+        s.sun = {source.environment.sun->azimuth, source.environment.sun->elevation};
+    else if (isPicture)
+        s.turn = source.environment.rotationDegrees;
+    s.variant = source.reading.selection.variant;
+    s.seconds = source.reading.selection.seconds;
     s.share = isCoarse_ ? 0 : share_;
     s.raysPerSecond = raysPerSecond_;
     s.pose = pose_;
@@ -221,7 +328,7 @@ std::string LiveView::commandNow(const ToneWords& tone, bool denoised) const {
     static_cast<void>(toneOf(tone)); // throws
     ResolvedPicture picture = session_.picture();
     picture.settings.area = {full_.width, full_.height, request_.picture.crop};
-    return request_.command(pose_, fileCamera_, picture, tone, denoised);
+    return request_.command({pose_, fileCamera_, request_.source, picture, tone, denoised});
 }
 
 Reply LiveView::probe(uint32_t x, uint32_t y) {

@@ -3,6 +3,7 @@
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_session.hpp"
 #include "host/view/exchange.hpp"
+#include "host/view/scene_loading.hpp"
 #include "host/view/showing.hpp"
 
 #include <cstdint>
@@ -13,16 +14,26 @@
 
 namespace stromboli::view {
 
-/// The command line that makes a picture of what is viewed: of the pose or, without one, of a
-/// camera of the file (its place) or, without either, of the view that was begun with.
-using CommandWriter = std::function<std::string(
-    const std::optional<Pose>& pose, const std::optional<size_t>& fileCamera,
-    const ResolvedPicture& picture, const ToneWords& tone, bool denoised)>;
+/// What is viewed: from the pose or, without one, from a camera of the file (its place) or, without
+/// either, from where it was begun.
+struct Viewed {
+    std::optional<Pose> pose;
+    std::optional<size_t> fileCamera;
+    const SceneRequest& scene;
+    ResolvedPicture picture;
+    ToneWords tone;
+    bool denoised = false;
+};
+/// The command line that makes a picture of it.
+using CommandWriter = std::function<std::string(const Viewed&)>;
 
 struct LiveRequest {
     LoadedScene scene;
-    std::string name;      ///< of the scene, for the page
-    RenderRequest picture; ///< the one to begin with
+    SceneRequest source;                               ///< that it was loaded by
+    SceneLoader load;                                  ///< for others of the same file
+    std::string name;                                  ///< of the scene, for the page
+    RenderRequest picture;                             ///< the one to begin with
+    std::shared_ptr<const ReferencePicture> reference; ///< null: none
     CommandWriter command;
     /// What saved files say of how they were made; may be empty.
     std::function<PictureNotes(const RenderResult& result, const std::string& command)> notes;
@@ -33,7 +44,8 @@ struct LiveRequest {
 /// show, and that one, with as many samples as are asked for.
 class LiveView final : public Answers {
   public:
-    /// The session and the exchange outlive it. Throws what resolvePicture() does.
+    /// The session and the exchange outlive it. Throws what resolvePicture() does, and UsageError
+    /// if the reference has another size than the picture.
     LiveView(RenderSession& session, Exchange& exchange, LiveRequest request);
 
     /// Until wantsToEnd() says so, which is asked several times a second. Throws DeviceError.
@@ -45,12 +57,16 @@ class LiveView final : public Answers {
 
   private:
     void steer(const Steering& steering);
+    bool look(const Steering& steering);
+    bool relight(const EnvironmentRequest& wanted);
+    void reload(const Steering& steering);
+    void takeLoaded();
     void beginFirst();
     void beginCoarse(uint32_t coarseness);
     void beginFull();
     void refine();
     void pass(const std::function<bool()>& wantsToEnd);
-    void endCoarse();
+    void chooseCoarseness();
     void attend();
     ShownState state() const;
     RenderRequest requestNow() const;
@@ -61,6 +77,10 @@ class LiveView final : public Answers {
     LiveRequest request_;
     PictureSize full_;
     Showing showing_;
+    std::shared_ptr<const Scene> scene_; ///< what the request's has become
+    SceneLoading loading_;
+    SceneRequest asked_; ///< that is shown once it is loaded
+    std::string problem_;
     std::optional<Pose> pose_;
     std::optional<size_t> fileCamera_;
     bool isCoarse_ = false, isOver_ = false, isPaused_ = false, isMoving_ = false;

@@ -24,11 +24,9 @@ std::string_view textOf(std::span<const unsigned char> bytes) {
 } // namespace
 
 std::string pageText(const PageFacts& facts) {
-    const Json settings = {{"token", facts.token},
-                           {"readOnly", facts.readOnly},
-                           {"view", facts.view},
-                           {"exposure", facts.exposure},
-                           {"denoised", facts.denoised}};
+    const Json settings = {{"token", facts.token},       {"readOnly", facts.readOnly},
+                           {"view", facts.view},         {"exposure", facts.exposure},
+                           {"denoised", facts.denoised}, {"reference", facts.hasReference}};
     const std::string data = forScript(settings.dump());
     const std::pair<std::string_view, std::string_view> parts[] = {
         {"@@NONCE@@", facts.nonce},          {"@@STYLE@@", textOf(view_style)},

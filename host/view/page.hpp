@@ -11,6 +11,7 @@ struct PageFacts {
     bool readOnly = false;
     std::string view = "standard", exposure = "auto"; ///< to begin with
     bool denoised = false;
+    bool hasReference = false; ///< the server has a picture to compare with
 };
 
 /// The page: one document, which fetches nothing but what this server has.

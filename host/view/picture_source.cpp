@@ -132,7 +132,7 @@ const FloatImage& PictureSource::layers() {
     return *layers_;
 }
 
-Raster PictureSource::raster(Shown what) {
+Raster PictureSource::raster(Shown what, const std::function<bool()>& isUnwanted) {
     const Film& film = session_.film();
     const auto set3 = [](float* to, const glm::dvec3& from) {
         for (int c = 0; c < 3; ++c)
@@ -140,7 +140,9 @@ Raster PictureSource::raster(Shown what) {
     };
     switch (what) {
     case Shown::Denoised: {
-        const denoise::DenoisedPicture& clean = session_.denoised();
+        const denoise::DenoisedPicture* const denoised = session_.denoisedUnless(isUnwanted);
+        if (!denoised) return {};
+        const denoise::DenoisedPicture& clean = *denoised;
         Film shown = film;
         for (size_t i = 0; i < clean.mean.size(); ++i)
             shown.pixels[i].mean = clean.mean[i];

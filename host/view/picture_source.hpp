@@ -7,6 +7,7 @@
 #include "host/view/frame.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -24,8 +25,9 @@ class PictureSource {
 
     /// What is kept is of an earlier picture.
     void beginPicture() { layers_.reset(); }
-    /// Throws std::logic_error before the first sample.
-    Raster raster(Shown what);
+    /// Throws std::logic_error before the first sample. isUnwanted: may be asked several times a
+    /// second; where it says so, the raster is empty.
+    Raster raster(Shown what, const std::function<bool()>& isUnwanted = {});
     /// What is known of a pixel, as JSON: radiance, noise, samples, albedo, normal, depth, object
     /// and material. The place is that in the part that is rendered. Throws UsageError outside.
     std::string probe(uint32_t x, uint32_t y);

@@ -83,6 +83,13 @@ Steering steeringOf(const httplib::Request& request) {
     }
     if (const auto camera = numberIfGiven(request, "camera", 0, 1e6))
         steering.fileCamera = size_t(*camera);
+    steering.turn = numberIfGiven(request, "turn", -3600, 3600);
+    if (request.has_param("azimuth"))
+        steering.sun = {numberOf(request, "azimuth", -3600, 3600),
+                        numberOf(request, "elevation", 0, 90)};
+    if (const auto variant = numberIfGiven(request, "variant", -1, 1e6))
+        steering.variant = int(*variant);
+    steering.seconds = numberIfGiven(request, "seconds", -1, 1e9);
     steering.moving = flagOf(request, "moving");
     steering.paused = flagOf(request, "paused");
     return steering;
@@ -238,6 +245,10 @@ class Server::Threads {
         server_.Get("/frame", answering([this](const auto& request, auto& response) {
                         sendFrame(request, response);
                     }));
+        server_.Get("/reference", answering([this](const auto&, auto& response) {
+                        if (!options_.reference) return say(response, 404, "there is none");
+                        send(response, options_.reference, "application/octet-stream");
+                    }));
         server_.Get("/probe", answering([this](const auto& request, auto& response) {
                         const auto x = uint32_t(numberOf(request, "x", 0, 65535)),
                                    y = uint32_t(numberOf(request, "y", 0, 65535));
@@ -273,6 +284,7 @@ class Server::Threads {
         facts.view = options_.tone.view;
         facts.exposure = options_.tone.exposure;
         facts.denoised = options_.denoised;
+        facts.hasReference = options_.reference != nullptr;
         response.set_header("Content-Security-Policy", contentPolicy(facts.nonce));
         response.set_content(pageText(facts), "text/html; charset=utf-8");
     }

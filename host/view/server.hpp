@@ -14,6 +14,8 @@ struct ServerOptions {
     bool readOnly = false;          ///< pages look and do not steer
     ToneWords tone;                 ///< that pages begin with
     bool denoised = false;          ///< pages begin with the denoised picture
+    /// The frame of a picture that pages compare with; null: none.
+    std::shared_ptr<const std::string> reference;
 };
 
 /// Serves the page, and what it asks for, on threads of its own, from when it is made to its end.

@@ -81,6 +81,9 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
     Json cameras = Json::array();
     for (const FileCamera& camera : scene.cameras)
         cameras.push_back(camera.name);
+    const auto orNull = [](const std::optional<double>& value) {
+        return value ? Json(*value) : Json(nullptr);
+    };
     const bool isRadiance = what == Shown::Picture || what == Shown::Denoised;
     const Json text = {
         {"number", number_},
@@ -106,14 +109,24 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
         {"scene", state.scene},
         {"device", result.backend},
         {"cameras", cameras},
+        {"difference",
+         isRadiance && reference_ ? differenceJson(*reference_, raster) : Json(nullptr)},
         {"readOnly", state.readOnly},
+        {"problem", state.problem},
+        {"turn", orNull(state.turn)},
+        {"sun",
+         state.sun ? Json::array({state.sun->azimuth, state.sun->elevation}) : Json(nullptr)},
+        {"variants", scene.variants},
+        {"variant", state.variant},
+        {"animationSeconds", scene.animationSeconds},
+        {"atSeconds", orNull(state.seconds)},
         {"isStated", state.pose.has_value()},
         {"pose", poseJson(state.pose.value_or(poseOf(picture.camera, scene)))},
     };
     return text.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void Showing::show(const ShownState& state, bool isLast) {
+void Showing::show(const ShownState& state, bool isLast, const std::function<bool()>& isUnwanted) {
     const Stopwatch watch;
     auto awaited = exchange_.awaited();
     if (isLast) awaited[size_t(Shown::Picture)] = true;
@@ -122,7 +135,8 @@ void Showing::show(const ShownState& state, bool isLast) {
     for (size_t i = 0; i < awaited.size(); ++i) {
         if (!awaited[i]) continue;
         const Shown what = kNamedValues<Shown>[i].value;
-        const Raster raster = source_.raster(what);
+        const Raster raster = source_.raster(what, isUnwanted);
+        if (raster.values.empty()) continue;
         const int exponent = exponentFor(raster.values);
         exchange_.publish(what, number_,
                           std::make_shared<const std::string>(encodeFrame(

@@ -4,11 +4,14 @@
 #include "host/engine/render_session.hpp"
 #include "host/view/exchange.hpp"
 #include "host/view/picture_source.hpp"
+#include "host/view/reference_picture.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace stromboli::view {
 
@@ -36,11 +39,17 @@ struct ShownState {
     uint64_t epoch = 0;  ///< numbers the pictures that were begun
     bool coarse = false; ///< in place of a picture of full size
     uint32_t fullWidth = 0, fullHeight = 0;
-    std::string state; ///< "rendering", "paused", "done"
-    double share = 0;  ///< of the work that is done
+    std::string state;   ///< "rendering", "paused", "done", "loading"
+    std::string problem; ///< why what was asked for last is not there; may be empty
+    double share = 0;    ///< of the work that is done
     double raysPerSecond = 0;
     bool readOnly = false;
     std::optional<Pose> pose; ///< empty: the view of a camera of the file
+    // What can be steered beside it, where it is there:
+    std::optional<double> turn;
+    std::optional<SunPlace> sun;
+    std::string variant;
+    std::optional<double> seconds;
 };
 
 /// Makes frames of what a session renders, between its passes, for those who wait for them.
@@ -50,12 +59,18 @@ class Showing {
     Showing(RenderSession& session, Exchange& exchange)
         : session_(session), exchange_(exchange), source_(session) {}
 
+    /// Frames of radiance tell how it differs from this picture.
+    void compareWith(std::shared_ptr<const ReferencePicture> reference) {
+        reference_ = std::move(reference);
+    }
     void beginPicture();
     /// Whether a pass is to be paused, because a frame is due that somebody waits for.
     bool isDue() const { return exchange_.isAwaited() && cadence_.isDue(watch_.seconds()); }
     /// Makes all frames that are awaited, whether they are due or not. isLast: and the one of the
-    /// picture, for whoever comes later.
-    void show(const ShownState& state, bool isLast = false);
+    /// picture, for whoever comes later. isUnwanted: of what takes long; what is given up for it
+    /// is missing.
+    void show(const ShownState& state, bool isLast = false,
+              const std::function<bool()>& isUnwanted = {});
     PictureSource& source() { return source_; }
     double secondsOfPicture() const { return watch_.seconds(); }
 
@@ -65,6 +80,7 @@ class Showing {
     RenderSession& session_;
     Exchange& exchange_;
     PictureSource source_;
+    std::shared_ptr<const ReferencePicture> reference_;
     Cadence cadence_;
     Stopwatch watch_;
     uint64_t number_ = 0; ///< of the last frame

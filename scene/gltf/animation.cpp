@@ -147,4 +147,20 @@ std::map<size_t, AnimatedNode> animatedNodes(Context& context) {
     return nodes;
 }
 
+double animationEnd(const Document& document) {
+    const std::vector<Element> animations = document.root().items("animations");
+    if (animations.empty()) return 0;
+    double end = 0;
+    for (const Element& sampler : animations.front().items("samplers"))
+        try {
+            const auto input = sampler.index("input", document.size("accessors"));
+            if (!input) continue;
+            const Values times = readValues(document, *input, 1);
+            if (times.count > 0 && std::isfinite(times.numbers.back()))
+                end = std::max(end, times.numbers.back());
+        } catch (const SceneError&) { // whoever shows the animation says what is wrong
+        }
+    return end;
+}
+
 } // namespace stromboli::gltf

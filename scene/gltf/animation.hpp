@@ -23,4 +23,7 @@ struct AnimatedNode {
 /// The file's first animation at the time that `--at` asks for; empty without it.
 std::map<size_t, AnimatedNode> animatedNodes(Context& context);
 
+/// The last key frame of the file's first animation, in seconds; 0: there is none that can be read.
+double animationEnd(const Document& document);
+
 } // namespace stromboli::gltf

@@ -1,6 +1,8 @@
 #include "scene/gltf/load_gltf.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/gltf/animation.hpp"
+#include "scene/gltf/materials.hpp"
 #include "scene/gltf/nodes.hpp"
 
 #include <new>
@@ -13,7 +15,10 @@ Scene loadGltf(const std::filesystem::path& file, const SceneConventions& conven
     gltf::reportExtensions(document, builder.report());
     gltf::Context context{document, builder, gltf::chosenVariant(document, builder)};
     gltf::Nodes(context).place();
-    return builder.finish();
+    Scene scene = builder.finish();
+    scene.variants = gltf::variantNames(document);
+    scene.animationSeconds = gltf::animationEnd(document);
+    return scene;
 } catch (const std::bad_alloc&) {
     throw SceneError(file.string(), 0, "", "does not fit in memory");
 }

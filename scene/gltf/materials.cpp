@@ -64,11 +64,16 @@ bool isOfAnotherFrame(const Material& material, TextureSlot slot, const TextureU
 
 } // namespace
 
-std::optional<size_t> chosenVariant(const Document& document, build::SceneBuilder& builder) {
+std::vector<std::string> variantNames(const Document& document) {
     std::vector<std::string> names;
     if (const auto extension = document.root().extension("KHR_materials_variants"))
         for (size_t i = 0; i < extension->size("variants"); ++i)
             names.push_back(extension->item("variants", i).text("name"));
+    return names;
+}
+
+std::optional<size_t> chosenVariant(const Document& document, build::SceneBuilder& builder) {
+    const std::vector<std::string> names = variantNames(document);
     const std::string& wanted = builder.conventions().selection.variant;
     const std::string list = fmt::format("{}", fmt::join(names, ", "));
     if (wanted.empty()) {

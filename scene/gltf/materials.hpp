@@ -39,6 +39,9 @@ class Materials {
     std::map<std::optional<size_t>, BoundMaterial> made_;
 };
 
+/// The variants of KHR_materials_variants.
+std::vector<std::string> variantNames(const Document& document);
+
 /// The variant that `--variant` asks for; throws SceneError, with the names that there are, if
 /// there is none of that name.
 std::optional<size_t> chosenVariant(const Document& document, build::SceneBuilder& builder);

@@ -142,6 +142,10 @@ struct Scene {
     /// file states, without emitters made from area lights, and without a floor that a user asks
     /// for.
     std::optional<Bounds> framing;
+    /// What else the file could be read as: names of its sets of materials, and the end of its
+    /// first animation in seconds, 0 without one.
+    std::vector<std::string> variants;
+    double animationSeconds = 0;
     bool cglDialect = false; ///< the file has elements of the CS184 dialect (profile CGL, CMU462)
     RenderHints hints;
     LoadReport report;

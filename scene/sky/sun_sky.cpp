@@ -4,6 +4,7 @@
 #include "scene/sky/sun_radiance.hpp"
 
 #include <glm/gtc/constants.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,12 +57,13 @@ glm::vec3 skyIn(const SunSky& s, const SkyModel& model, const glm::dvec3& d) {
 
 void addSky(const SunSky& s, const SkyModel& model, const PictureAround& around,
             std::vector<glm::vec3>& picture) {
-    for (uint32_t row = 0; row < around.height; ++row)
+    tbb::parallel_for(0u, around.height, [&](uint32_t row) {
         for (uint32_t column = 0; column < around.width; ++column) {
             const glm::dvec3 d =
                 glm::normalize(s.skyFromWorld * around.direction(column + 0.5, row + 0.5));
             picture[size_t(row) * around.width + column] += skyIn(s, model, d);
         }
+    });
 }
 
 double solidAngleOf(double halfAperture) {

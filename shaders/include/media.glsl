@@ -133,7 +133,7 @@ bool goThroughMedium(const Given given, inout PathState path) {
         if (isPath && !varies && !SEES) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
         if (varies) r = trackGrid(m, here, path.ray, carried, isPath && !SEES, words);
         if (SEES) path.seen.albedo.xyz += path.throughput * (1.0 - r.weight) * m.albedo;
-        if (mediaDo(MEDIA_SHINE) && isPath && countedBounces(path.bounce, path.uncounted) >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
+        if (mediaDo(MEDIA_SHINE) && isPath && countedBounces(path.bounce, path.uncounted) >= given.frame.minBounce) path.radiance += limited(path, path.throughput * r.shone);
         if (isPath) path.throughput *= r.weight;
         else path.directValue *= r.weight;
         isUnderWay = r.isUnderWay;

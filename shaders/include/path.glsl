@@ -33,8 +33,9 @@ void finishShadowRay(const Frame frame, inout PathState path) {
     if (emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE)
         path.directValue *= emissionFactorOf(path.found);
     if (path.ray.hitPrimitive == NO_PRIMITIVE) {
-        path.radiance += path.throughput * path.directValue;
-        if (RECORDS) recordArrivedLight(path, path.throughput * path.directValue);
+        const vec3 light = limited(path, path.throughput * path.directValue);
+        path.radiance += light;
+        if (RECORDS) recordArrivedLight(path, light);
     } else {
         noteShadow(frame, path);
     }
@@ -50,8 +51,9 @@ void finishHemisphereRay(inout PathState path) {
     }
     arriving *= transmittance(fillingBeyond(path.surface, path.material, path.filling, isBehind(path.surface, path.ray.direction)).medium,
                            path.ray.tMax);
-    path.radiance += path.throughput * path.directValue * arriving;
-    if (RECORDS) recordArrivedLight(path, path.throughput * path.directValue * arriving);
+    const vec3 light = limited(path, path.throughput * path.directValue * arriving);
+    path.radiance += light;
+    if (RECORDS) recordArrivedLight(path, light);
     path.phase = PHASE_DIRECT;
 }
 
@@ -59,8 +61,8 @@ void finishHemisphereRay(inout PathState path) {
 void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float share) {
     const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && countedBounces(path.bounce, path.uncounted) >= frame.minBounce;
     const bool adds = counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT;
-    if (adds) path.radiance += path.throughput * sky.radiance * share;
-    if (RECORDS) recordMiss(path, adds ? path.throughput * sky.radiance * share : vec3(0.0), share);
+    if (adds) path.radiance += limited(path, path.throughput * sky.radiance * share);
+    if (RECORDS) recordMiss(path, adds ? limited(path, path.throughput * sky.radiance * share) : vec3(0.0), share);
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
@@ -96,9 +98,11 @@ void arrive(const Given given, inout PathState path) {
         path.found = lookUpMaterial(materialPoint(path.surface));
     }
     path.material = inMixture(path.found.parameters, path.surface);
-    if (path.countsEmission) path.radiance += path.throughput * emissionAt(path.surface, path.material) * share;
+    if (path.countsEmission) path.radiance += limited(path, path.throughput * emissionAt(path.surface, path.material) * share);
     if (RECORDS)
-        recordArrival(path, path.countsEmission ? path.throughput * emissionAt(path.surface, path.material) * share : vec3(0.0),
+        recordArrival(path,
+                      path.countsEmission ? limited(path, path.throughput * emissionAt(path.surface, path.material) * share)
+                                          : vec3(0.0),
                       share, 1.0 - (ROULETTE == ROULETTE_FIXED ? given.frame.terminationProbability : 0.0));
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
     if (!inMedium) {

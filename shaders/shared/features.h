@@ -16,7 +16,7 @@
 //   all       C++: the value where the kernel is to have all that a scene might need; `own`: as for the scene
 //   label     of the line of `info`
 //   shown     how the value reads there: flag; bits or oneOf, with a name for each bit or choice; count, with a unit;
-//             share
+//             share; number
 //   adds      what the feature adds to the kernel
 #define KERNEL_FEATURES(F) \
     F(3, bool, HAS_TRIANGLES, true, scene.hasTriangles, 1, \
@@ -157,9 +157,13 @@
     F(57, bool, GUIDES_LIGHT, false, guidesLight(scene, settings), own, \
       "guided light samples", flag, "light samples that go where the environment is seen from") \
     F(58, bool, NOTES_LIGHT, false, 0, own, \
-      "notes of light samples", flag, "which light samples arrive, written down for guiding to learn from")
+      "notes of light samples", flag, "which light samples arrive, written down for guiding to learn from") \
+    F(59, bool, CLAMPS_INDIRECT, false, shades && settings.indirectLimit > 0, own, \
+      "limited light", flag, "light that is limited where it was scattered twice or more") \
+    F(60, float, INDIRECT_LIMIT, 1.0, f[SPEC_CLAMPS_INDIRECT] ? settings.indirectLimit : 0, own, \
+      "limit of that light", number, "the most that it brings at a time, in its brightest channel")
 
-#define SPEC_COUNT 59
+#define SPEC_COUNT 61
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -242,6 +242,36 @@ TEST(Options, SceneMayFollowAnOptionWithSeveralValues) {
               "a.dae");
 }
 
+TEST(Options, ClampedLightIsAskedFor) {
+    const std::vector<std::string> words = {"render", "a.dae", "-o", "a.png"};
+    EXPECT_EQ(parse(words).picture.estimator.indirectLimit, 0);
+    std::vector<std::string> clamped = words;
+    clamped.insert(clamped.end(), {"--clamp-indirect", "2.5"});
+    EXPECT_EQ(parse(clamped).picture.estimator.indirectLimit, 2.5);
+    for (const char* wrong : {"0", "-1", "nan", "inf"}) {
+        clamped.back() = wrong;
+        EXPECT_THROW(parse(clamped), UsageError) << wrong;
+    }
+}
+
+TEST(Options, WatchNeedsNoPort) {
+    const auto portOf = [](std::vector<std::string> words) {
+        words.insert(words.begin(), "render");
+        const RenderOptions o = parse(words);
+        EXPECT_EQ(o.scene.source, "a.dae");
+        EXPECT_EQ(o.output.file, "a.png");
+        return o.watch.port;
+    };
+    EXPECT_EQ(portOf({"a.dae", "-o", "a.png"}), std::nullopt);
+    EXPECT_EQ(portOf({"a.dae", "-o", "a.png", "--watch"}), 0u);
+    EXPECT_EQ(portOf({"--watch", "a.dae", "-o", "a.png"}), 0u);
+    EXPECT_EQ(portOf({"--watch", "-o", "a.png", "a.dae"}), 0u);
+    EXPECT_EQ(portOf({"-o", "a.png", "--watch", "-r", "8", "9", "a.dae"}), 0u);
+    EXPECT_EQ(portOf({"--watch", "8080", "a.dae", "-o", "a.png"}), 8080u);
+    EXPECT_EQ(portOf({"--watch=8080", "a.dae", "-o", "a.png"}), 8080u);
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "--watch", "65536"}), UsageError);
+}
+
 TEST(Options, SpellingLeavesOutputsAlone) {
     EXPECT_EQ(fromCs184Spelling({"-o", "0.png"}), (std::vector<std::string>{"-o", "0.png"}));
     EXPECT_EQ(fromCs184Spelling({"-o", "0"}), (std::vector<std::string>{"--accumulate", "0"}));

@@ -73,6 +73,20 @@ TEST_F(DenoiseDevice, TheSameBytesTwice) {
     expectSameBytes(filtered(p), filtered(p));
 }
 
+/// Whoever may want it no longer is asked between short dispatches; none of it changes a byte.
+TEST_F(DenoiseDevice, MayBeGivenUp) {
+    const Prepared p = picture(0.2f, 5);
+    DeviceFilter filter(testDevice());
+    int questions = 0;
+    expectSameBytes(filtered(p), filter.run(p, [&] { return ++questions < 0; }));
+    EXPECT_GE(questions, 8); // two parts of each of four passes
+    for (const int last : {1, questions}) {
+        int asked = 0;
+        EXPECT_TRUE(filter.run(p, [&] { return ++asked == last; }).empty());
+        EXPECT_EQ(asked, last);
+    }
+}
+
 TEST_F(DenoiseDevice, TheSameBytesInStripsOfAnyHeight) {
     const Prepared p = picture(0.2f, 3);
     const std::vector<gpu::DenoiseResult> whole = filtered(p);

@@ -171,6 +171,55 @@ TEST(DeviceSession, MovedObjectsHaveTheBytesOfASessionOfTheirOwn) {
     }
 }
 
+/// Layers and denoiser are given up where they are not wanted, and can be asked for again.
+TEST(DeviceSession, ADenoisedPictureMayBeGivenUp) {
+    const auto scene = bundled("cornell_spheres");
+    RenderSession session, other;
+    for (RenderSession* s : {&session, &other}) {
+        s->begin(scene, smallPicture(8));
+        s->run();
+    }
+    for (const int last : {1, 2, 4}) { // while layers are traced, and while the filter is at work
+        int asked = 0;
+        EXPECT_EQ(session.denoisedUnless([&] { return ++asked >= last; }), nullptr) << last;
+        EXPECT_GE(asked, last);
+    }
+    const denoise::DenoisedPicture* const wanted = session.denoisedUnless([] { return false; });
+    ASSERT_NE(wanted, nullptr);
+    EXPECT_EQ(wanted->mean, other.denoised().mean);
+}
+
+/// An environment that turns, with its tables, and one in its place: of a sun that has sunk.
+TEST(DeviceSession, ATurnedOrOtherEnvironmentBuildsNothingAndHasTheBytesOfASessionOfItsOwn) {
+    SceneRequest source{"still_life", {}, {}};
+    source.environment.sun = SunRequest{135, 40};
+    const std::shared_ptr<const Scene> scene = loadScene(source).scene;
+    const RenderRequest request = smallPicture(8);
+    Told told;
+    RenderSession session({}, told.listener());
+    session.begin(scene, request);
+    session.run();
+    const Film before = session.film();
+    source.environment.sun = SunRequest{20, 40};
+    SceneChange turn;
+    turn.rotation = rotationOf(source.environment);
+    session.change(turn);
+    session.run();
+    EXPECT_FALSE(sameBytes(session.film(), before));
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, loadScene(source).scene, request)));
+    source.environment.sun = SunRequest{20, 15};
+    turn.environment = std::make_shared<Environment>(environmentOf(*source.environment.sun));
+    session.change(turn);
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, loadScene(source).scene, request)));
+    EXPECT_EQ(told.count(Stage::Building), 1u);
+    SceneChange back;
+    back.environment = std::make_shared<Environment>(*scene->environment);
+    session.change(back);
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), before));
+}
+
 TEST(DeviceSession, ChangedLightsBuildNothingAndHaveTheBytesOfASessionOfItsOwn) {
     const std::shared_ptr<const Scene> scene = bundled("light_spot");
     const RenderRequest request = smallPicture(8);

@@ -2,14 +2,18 @@
 #include "tests/engine/engine_fixture.hpp"
 
 #include "host/bvh/wide_layout.hpp"
+#include "host/core/error.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "scene/model/placements.hpp"
+#include "tests/film/temporary_folder.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <functional>
 
 namespace stromboli {
@@ -214,6 +218,34 @@ TEST(SceneChange, WhatIsKeptIsWhatWouldBePackedAnew) {
     EXPECT_EQ(kept.lights.table, anew.lights.table);
     EXPECT_GT(anew.details.rows.size(), anew.details.firstTexel) << "it has textures";
     EXPECT_NE(before.bvh.records, anew.bvh.records);
+}
+
+TEST(SceneChange, EnvironmentsThatCannotBeAreRefused) {
+    Scene lit;
+    lit.environment = Environment{};
+    SceneChange turn, other;
+    turn.rotation = 1.0f;
+    other.environment = std::make_shared<Environment>(Environment{"", 2, 1, {{}, {}}, 1, 0});
+    EXPECT_THROW(changed(std::make_shared<Scene>(), turn), std::invalid_argument);
+    EXPECT_THROW(changed(std::make_shared<Scene>(lit), other), std::invalid_argument);
+    EXPECT_EQ(changed(std::make_shared<Scene>(lit), turn)->environment->rotation, 1);
+    turn.rotation = INFINITY;
+    EXPECT_THROW(changed(std::make_shared<Scene>(lit), turn), std::invalid_argument);
+}
+
+TEST(SceneRequests, TurnTheEnvironmentOfTheFile) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "sky.xml") << R"(<scene version="0.6.0">
+        <emitter type="sky"/><shape type="sphere"/></scene>)";
+    SceneRequest request{(folder / "sky.xml").string(), {}, {}};
+    const LoadedScene plain = loadScene(request);
+    ASSERT_TRUE(plain.scene->environment);
+    request.environment.rotationDegrees = 30;
+    const LoadedScene turned = loadScene(request);
+    EXPECT_EQ(turned.rotationOfFile, plain.scene->environment->rotation);
+    EXPECT_FLOAT_EQ(turned.scene->environment->rotation - turned.rotationOfFile, 0.523598776f);
+    request.source = "cornell_boxes";
+    EXPECT_THROW(loadScene(request), UsageError); // which has none
 }
 
 } // namespace

@@ -64,7 +64,7 @@ TEST(EnvironmentTable, TexelsArePickedByTheirWeight) {
     // Each texel is a tile here: texels are picked as tiles are.
     ASSERT_EQ(table.light.tiles, 128u);
     for (uint32_t i = 0; i < 128; ++i) {
-        const auto columns = structureAt<gpu::TileColumns>(table.texels, i / 2);
+        const auto columns = structureAt<gpu::TileColumns>(*table.texels, i / 2);
         const double own = i % 2 == 0 ? columns.threshold0 : columns.threshold1;
         probability[i] += own / 128;
         probability[i % 2 == 0 ? columns.alias0 : columns.alias1] += (1 - own) / 128;
@@ -97,7 +97,7 @@ TEST(EnvironmentTable, TexelsOfATileArePickedByTheirWeight) {
             const uint32_t texels =
                 std::min(8u, width - x / 8 * 8) * std::min(8u, height - y / 8 * 8);
             const auto texel = structureAt<gpu::EnvironmentTexel>(
-                table.texels, gpu::ENVIRONMENT_COLUMN_ROWS + y * width + x);
+                *table.texels, gpu::ENVIRONMENT_COLUMN_ROWS + y * width + x);
             probability[y * width + x] += double(texel.threshold) / texels;
             probability[texel.alias] += (1 - double(texel.threshold)) / texels;
             ASSERT_EQ(tileAt(texel.alias % width, texel.alias / width), tileAt(x, y));
@@ -114,7 +114,17 @@ TEST(EnvironmentTable, TexelsOfATileArePickedByTheirWeight) {
 TEST(EnvironmentTable, ABlackOneHasNoTexels) {
     Environment e = noise(4, 2);
     e.radiance.assign(8, glm::vec3(0));
-    EXPECT_TRUE(packEnvironment(e).texels.empty());
+    EXPECT_EQ(packEnvironment(e).texels, nullptr);
+}
+
+TEST(EnvironmentTable, OneThatIsTurnedSharesItsTexels) {
+    Environment e{"", 4, 2, std::vector<glm::vec3>(8, glm::vec3(1)), 1, 0};
+    const EnvironmentTable table = packEnvironment(e), other = turned(table, 0.5f);
+    e.rotation = 0.5f;
+    EXPECT_EQ(other.texels, table.texels);
+    EXPECT_EQ(other.light.sinRotation, packEnvironment(e).light.sinRotation);
+    EXPECT_EQ(other.light.cosRotation, packEnvironment(e).light.cosRotation);
+    EXPECT_EQ(other.light.density, table.light.density);
 }
 
 } // namespace

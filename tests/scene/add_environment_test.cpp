@@ -109,13 +109,15 @@ TEST(AddEnvironment, ASunIsWhereItIsAskedForAndLightsTheGround) {
     // The ground around reflects 30 %.
     const glm::vec3 below = scene.environment->radiance.back();
     EXPECT_NEAR(below.y, 0.3 * paper.y, 0.002);
-    request.sun = SunRequest{90, 30, 5}; // the east: +x, three quarters along the picture
+    request.sun = SunRequest{90, 30, 5}; // the east: +x
     addEnvironment(scene, request);
     const Environment& sky = *scene.environment;
     const auto sun =
         std::ranges::max_element(sky.radiance, {}, [](const glm::vec3& c) { return c.x; });
     const auto place = size_t(sun - sky.radiance.begin());
-    EXPECT_NEAR(double(place % sky.width) / sky.width, 0.75, 0.003);
+    // In the middle, -z, from where the rotation takes it clockwise to +x.
+    EXPECT_NEAR(double(place % sky.width) / sky.width, 0.5, 0.003);
+    EXPECT_FLOAT_EQ(sky.rotation, -1.57079633f);
     EXPECT_NEAR(90 - double(place / sky.width) * 180 / sky.height, 30, 0.5);
 }
 

@@ -58,6 +58,7 @@ std::vector<uint32_t> otherValues(const Feature& f, uint32_t value) {
     case Kind::Count:
         return {value + 1, 1};
     case Kind::Share:
+    case Kind::Number:
         return {std::bit_cast<uint32_t>(0.25f)};
     case Kind::Bits:
         for (uint32_t bit = 0; bit < f.shown.names.size(); ++bit)

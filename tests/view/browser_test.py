@@ -3,10 +3,15 @@
 browser_test.py PROGRAM        exit code 77: there is no Chromium
 """
 
+import json
 import math
+import os
 import shutil
+import subprocess
 import sys
+import tempfile
 
+import small_gltf
 from browser import Browser
 from program import Served
 
@@ -123,6 +128,100 @@ def mouse(page):
     page.mouse("mouseReleased", *middle, button="left", clickCount=1)
 
 
+def light_and_scene(browser, program):
+    """Sliders of the sun and the environment; the scene's variants and time."""
+    small = ["-r", "48", "36", "-s", "4", "-m", "2", "--exposure", "0"]
+    with Served(program, "view", "cornell_boxes", *small, "--sun", "90,40") as view:
+        page = browser.open(view.address)
+        page.wait(DONE)
+        check(page.evaluate("!at('light-tools').hidden && at('turn').parentElement.hidden && at('scene-tools').hidden"),
+              "a sun has two sliders")
+        choose(page, "elevation", 12.34)
+        page.wait(f"{DONE} && stromboli.frame.sun[1] === 12.3 && stromboli.frame.sun[0] === 90")
+        choose(page, "azimuth", 270)
+        page.wait(f"{DONE} && stromboli.frame.sun[0] === 270 && stromboli.frame.sun[1] === 12.3")
+        page.evaluate("at('command').click(), 0")
+        page.wait("at('command-text').textContent.includes('--sun 270,12.3,3')")
+        page.close()
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "small.gltf")
+        small_gltf.write(file)
+        with Served(program, "view", file, *small, "--env", "evening_sky") as view:
+            page = browser.open(view.address)
+            page.wait(DONE)
+            color = "[...context.getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data]"
+            check(page.evaluate("[...at('camera').options].map((o) => o.text).join()") == "(choose),front",
+                  "cameras of the file have their names")
+            choose(page, "turn", 90)
+            page.wait(f"{DONE} && stromboli.frame.turn === 90")
+            check(page.evaluate("at('azimuth').parentElement.hidden && !at('scene-tools').hidden"), "the tools")
+            check(page.evaluate("[...at('variant').options].map((o) => o.text).join()") == "of the file,red one,blue",
+                  "the variants have their names")
+            choose(page, "variant", 1)
+            page.wait(f"{DONE} && stromboli.frame.variant === 'blue'")
+            r, _, b, _ = page.evaluate(color)
+            check(b > 2 * r, f"the square is blue: {r} {b}")
+            choose(page, "seconds", 2)
+            page.wait(f"{DONE} && stromboli.frame.atSeconds === 2")
+            away = page.evaluate(color)
+            check(away != [r, _, b, 255], "the square has moved away")
+            page.evaluate("at('at-rest').click(), 0")
+            page.wait(f"{DONE} && stromboli.frame.atSeconds === null")
+            check(page.evaluate("stromboli.frame.turn") == 90, "the light stays turned")
+            page.close()
+
+
+def reference(browser, program):
+    """A picture to compare with: its place beside the other one, the difference, and what `compare` says of them."""
+    options = ["cornell_boxes", "-s", "4", "-m", "2"]
+    with tempfile.TemporaryDirectory() as folder:
+        def made(name, *more):
+            file = os.path.join(folder, name)
+            subprocess.run([program, "render", *options, "-r", "48", "36", *more, "-o", file], check=True,
+                           stderr=subprocess.DEVNULL)
+            return file
+        same, other = made("same.exr", "--guiding", "off"), made("other.exr", "--seed", "5")
+        both = "[canvas, at('other')].map((c) => [...c.getContext('2d').getImageData(0, 0, 48, 36).data].join())"
+        for file in (same, other):
+            with Served(program, "view", *options, "--exposure", "0", "--reference", file) as view:
+                page = browser.open(view.address)
+                page.wait(f"{DONE} && stromboli.reference && !at('other').hidden")
+                check(page.evaluate("canvas.width === 48 && canvas.height === 36"), "the size is the reference's")
+                difference = page.evaluate("stromboli.frame.difference")
+                saved = os.path.join(folder, "saved.exr")
+                with open(saved, "wb") as out:
+                    out.write(view.ask("save?format=exr"))
+                report = json.loads(subprocess.run([program, "compare", file, saved, "--json", "-"],
+                                                   stdout=subprocess.PIPE).stdout)
+                check(close(difference["relMse"], report["relMse"]) and close(difference["mse"], report["mse"])
+                      and close(difference["ssim"], report["ssim"]), f"{difference} {report}")
+                check((difference["relMse"] == 0) == (file == same), str(difference))
+                check(page.evaluate("at('difference').textContent.startsWith('relMSE ')"), "the metrics are shown")
+                for view_, exposure in (("standard", 1.5), ("agx", -1)):
+                    choose(page, "view", view_)
+                    choose(page, "exposure", exposure)
+                    pictures = page.evaluate(both)
+                    check((pictures[0] == pictures[1]) == (file == same), f"both at {exposure} EV by {view_}")
+                # The divider is dragged, and the camera stays.
+                epoch = page.evaluate("stromboli.frame.epoch")
+                left, top, width, height = page.evaluate(
+                    "(({ left, top, width, height }) => [left, top, width, height])(canvas.getBoundingClientRect())")
+                page.drag((left + width / 2, top + height / 2), (left + width / 4, top + height / 2))
+                check(close(page.evaluate("stromboli.divider"), 0.25, 0.01), "the divider was dragged")
+                check("75%" in page.evaluate("at('other').style.clipPath"), "the picture is right of it")
+                check(page.evaluate("stromboli.frame.epoch") == epoch, "the camera stays")
+                choose(page, "compared", "difference")
+                light = page.evaluate("context.getImageData(0, 0, 48, 36).data.reduce((s, v, i) => i % 4 < 3 ? s + v : s, 0)")
+                check((light == 0) == (file == same) and page.evaluate("at('other').hidden"), f"the difference: {light}")
+                choose(page, "compared", "none")
+                check(page.evaluate("at('other').hidden && at('divider').hidden"), "nothing is shown beside it")
+                # The metrics follow the picture: the camera is another one then.
+                page.evaluate("moveTo(dollied(stromboli.pose, 1.5), false), 0")
+                page.wait(f"{DONE} && stromboli.frame.epoch > {epoch}")
+                check(page.evaluate("stromboli.frame.difference.relMse") > 0, "the metrics follow the picture")
+                page.close()
+
+
 def two_browsers(browser, view, page):
     """Both see what one of them does."""
     other = browser.open(view.address, alone=True)
@@ -155,5 +254,7 @@ if __name__ == "__main__":
         page.wait(DONE)
         pixels(page)
         mouse(page)
+        light_and_scene(browser, sys.argv[1])
+        reference(browser, sys.argv[1])
         two_browsers(browser, view, page)
         reconnects(sys.argv[1], view, page)

@@ -83,6 +83,13 @@ std::vector<Hostile> hostileRequests(uint16_t port, const std::string& token) {
         {lines({"POST /steer?paused=1 HTTP/1.1", host, known, "Transfer-Encoding: chunked"}) +
              "5\r\nhello\r\n0\r\n\r\n",
          " 413 "},
+        {lines({"GET /reference HTTP/1.1", host}), " 403 "},
+        {lines({"GET /reference?file=/etc/passwd HTTP/1.1", host, known}), " 404 "},
+        {lines({"POST /steer?turn=1e400 HTTP/1.1", host, known, empty}), " 400 "},
+        {lines({"POST /steer?azimuth=nan&elevation=1 HTTP/1.1", host, known, empty}), " 400 "},
+        {lines({"POST /steer?variant=../../etc/passwd HTTP/1.1", host, known, empty}), " 400 "},
+        {lines({"POST /steer?seconds=-inf HTTP/1.1", host, known, empty}), " 400 "},
+        {lines({"POST /steer?turn=1 HTTP/1.1", host, empty}), " 403 "}, // no token
         {lines({"PUT / HTTP/1.1", host, known, empty}), " 405 "},
         {lines({"OPTIONS /steer HTTP/1.1", host, "Origin: http://evil.example"}), " 405 "},
         {lines({"TRACE / HTTP/1.1", host, known}), ""},

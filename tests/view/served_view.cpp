@@ -28,16 +28,19 @@ Answer answerOf(const httplib::Result& result) {
     return answer;
 }
 
-LiveRequest liveRequest(std::shared_ptr<const Scene> scene, const RenderRequest& picture) {
+LiveRequest liveRequest(std::shared_ptr<const Scene> scene, const std::string& source,
+                        const RenderRequest& picture) {
     LiveRequest request;
     // A session takes a scene that nobody changes; LoadedScene's is one that loaders still may.
     request.scene.scene = std::const_pointer_cast<Scene>(scene);
     request.name = "the <scene>";
     request.picture = picture;
-    request.command = [](const auto& pose, const auto& camera, const auto&, const ToneWords& tone,
-                         bool denoised) {
-        return fmt::format("{} {} {} {} {}", pose ? pose->from.x : -1, camera ? int(*camera) : -1,
-                           tone.view, tone.exposure, denoised);
+    request.source = {source, {}, {}};
+    request.load = [](const SceneRequest& other) { return loadScene(other); };
+    request.command = [](const Viewed& v) {
+        return fmt::format("{} {} {} {} {}", v.pose ? v.pose->from.x : -1,
+                           v.fileCamera ? int(*v.fileCamera) : -1, v.tone.view, v.tone.exposure,
+                           v.denoised);
     };
     return request;
 }
@@ -139,7 +142,7 @@ std::string Client::raw(const std::string& bytes, bool ends) const {
 ServedView::ServedView(const RenderRequest& request, ServerOptions options,
                        const std::string& scene)
     : scene_(stromboli::test::bundled(scene)), session_(onTheReference(), told_.listener()),
-      live_(session_, exchange_, liveRequest(scene_, request)), server_(options, exchange_),
+      live_(session_, exchange_, liveRequest(scene_, scene, request)), server_(options, exchange_),
       thread_([this] { live_.run([this] { return ends_.load(); }); }) {}
 
 ServedView::~ServedView() {

@@ -234,15 +234,34 @@ TEST(ServedView, PosesThatNoCameraCanHaveAreRefused) {
     const ServedView view(smallPicture(1));
     const Client client = view.client();
     client.finished();
-    for (const std::string& path :
-         {steerTo({1, 1, 1}, {1, 1, 1}, 40), steerTo({1, 1, 1}, {0, 0, 0}, 180),
-          steerTo({NAN, 1, 1}, {0, 0, 0}, 40), steerTo({1e30, 1, 1}, {0, 0, 0}, 40),
-          std::string("/steer?fromx=1"), std::string("/steer?camera=-1"),
-          std::string("/steer?moving=2"), std::string("/frame?shown=../etc/passwd&after=0"),
-          std::string("/frame?shown=picture&after=-1"), std::string("/save?format=/etc/passwd")})
+    for (const std::string& path : {steerTo({1, 1, 1}, {1, 1, 1}, 40),
+                                    steerTo({1, 1, 1}, {0, 0, 0}, 180),
+                                    steerTo({NAN, 1, 1}, {0, 0, 0}, 40),
+                                    steerTo({1e30, 1, 1}, {0, 0, 0}, 40),
+                                    std::string("/steer?fromx=1"),
+                                    std::string("/steer?camera=-1"),
+                                    std::string("/steer?moving=2"),
+                                    std::string("/steer?turn=nan"),
+                                    std::string("/steer?turn=1e9"),
+                                    std::string("/steer?turn="),
+                                    std::string("/steer?azimuth=10"),
+                                    std::string("/steer?azimuth=inf&elevation=10"),
+                                    std::string("/steer?azimuth=10&elevation=-1"),
+                                    std::string("/steer?variant=-2"),
+                                    std::string("/steer?variant=red"),
+                                    std::string("/steer?variant=1e99"),
+                                    std::string("/steer?seconds=-2"),
+                                    std::string("/steer?seconds=1e10"),
+                                    "/steer?seconds=" + std::string(1000, '9'),
+                                    std::string("/frame?shown=../etc/passwd&after=0"),
+                                    std::string("/frame?shown=picture&after=-1"),
+                                    std::string("/save?format=/etc/passwd")})
         EXPECT_EQ((path.starts_with("/steer") ? client.post(path) : client.get(path)).status, 400)
             << path;
-    EXPECT_EQ(client.post("/steer?camera=77").status, 204); // there is none, and nothing changes
+    // What is not there is not changed.
+    for (const char* path : {"/steer?camera=77", "/steer?turn=10", "/steer?azimuth=10&elevation=20",
+                             "/steer?variant=5", "/steer?seconds=1"})
+        EXPECT_EQ(client.post(path).status, 204) << path;
     EXPECT_TRUE(client.frame(0).says("epoch", "1"));
 }
 

@@ -116,6 +116,15 @@ function developRadiance(halves, exponent, view, exposure, data) {
   }
 }
 
+// How far radiance is from that of another picture, likewise: the light of the difference of each channel.
+function developDifference(halves, exponent, others, otherExponent, exposure, data) {
+  const values = halfValues(exponent), otherValues = halfValues(otherExponent), scale = 2 ** exposure;
+  for (let i = 0, to = 0; i < halves.length; to += 4) {
+    for (let c = 0; c < 3; ++c, ++i) data[to + c] = toByte(scale * Math.abs(values[halves[i]] - otherValues[others[i]]));
+    data[to + 3] = 255;
+  }
+}
+
 // Dark blue, red, yellow, white.
 function falseColor(t, data, to) {
   const s = Math.min(Math.max(t, 0), 1);

@@ -11,6 +11,10 @@ const page = {
   metered: settings.exposure === "auto",
   frame: null, // what the last frame says of itself
   halves: null,
+  reference: null, // a frame to compare with
+  compared: "split",
+  divider: 0.5, // its place, of the picture's width
+  sun: null, // azimuth and elevation, likewise
   pose: null, // what this page has steered to, or what the frame says
   drawn: 0, // frames
   reconnects: 0,
@@ -98,11 +102,14 @@ function draw() {
     canvas.width = frame.width, canvas.height = frame.height;
   const image = context.createImageData(frame.width, frame.height);
   let scale = "";
-  if (isRadiance()) developRadiance(page.halves, frame.exponent, page.view, exposureNow(), image.data);
+  const other = page.reference;
+  if (isDifference()) developDifference(page.halves, frame.exponent, other.halves, other.text.exponent, exposureNow(), image.data);
+  else if (isRadiance()) developRadiance(page.halves, frame.exponent, page.view, exposureNow(), image.data);
   else scale = developLayer(page.shown, page.halves, frame.exponent, image.data);
   context.putImageData(image, 0, 0);
+  drawReference();
   fit();
-  say(scale);
+  say(frame.state === "loading" ? "loading" : frame.problem || scale);
 }
 
 // As large as there is room, in the shape of the picture.
@@ -113,8 +120,73 @@ function fit() {
   canvas.style.width = `${frame.fullWidth * size}px`;
   canvas.style.height = `${frame.fullHeight * size}px`;
   canvas.classList.toggle("sharp", !frame.coarse && size >= 2);
+  at("other").classList.toggle("sharp", size >= 2);
+  for (const over of [at("other"), at("divider")]) {
+    over.style.top = `${canvas.offsetTop}px`, over.style.height = canvas.style.height;
+    over.style.left = `${canvas.offsetLeft + (over.id === "divider" ? page.divider * frame.fullWidth * size : 0)}px`;
+  }
+  at("other").style.width = canvas.style.width;
 }
 window.addEventListener("resize", fit);
+
+// --- The reference -----------------------------------------------------------------------------------------------------
+
+const isSameSize = () => page.frame.width === page.reference?.text.width && page.frame.height === page.reference?.text.height;
+const isDifference = () => page.compared === "difference" && isRadiance() && isSameSize();
+
+// It lies over the picture, up to the divider, and is developed anew when the exposure or the view is another.
+let developed = "";
+function drawReference() {
+  const { reference, compared, divider } = page, other = at("other");
+  const isThere = reference && isRadiance() && (compared === "split" || compared === "all");
+  other.hidden = !isThere;
+  at("divider").hidden = !isThere || compared === "all";
+  at("divider").setAttribute("aria-valuenow", String(Math.round(100 * divider)));
+  if (!isThere) return;
+  other.style.clipPath = `inset(0 ${compared === "all" ? 0 : 100 * (1 - divider)}% 0 0)`;
+  const how = `${page.view} ${exposureNow()}`;
+  if (how === developed) return;
+  developed = how;
+  const { width, height, exponent } = reference.text;
+  other.width = width, other.height = height;
+  const to = other.getContext("2d"), image = to.createImageData(width, height);
+  developRadiance(reference.halves, exponent, page.view, exposureNow(), image.data);
+  to.putImageData(image, 0, 0);
+}
+
+async function fetchReference() {
+  const response = await ask("/reference", {});
+  if (!response.ok) return say(await response.text());
+  page.reference = decode(await response.arrayBuffer());
+  at("reference-tools").hidden = false;
+  draw();
+}
+
+function divideAt(share) {
+  page.divider = Math.min(Math.max(share, 0), 1);
+  drawReference(), fit();
+}
+at("divider").addEventListener("pointerdown", (event) => at("divider").setPointerCapture(event.pointerId));
+at("divider").addEventListener("pointermove", (event) => {
+  const box = canvas.getBoundingClientRect();
+  if (at("divider").hasPointerCapture(event.pointerId)) divideAt((event.clientX - box.left) / box.width);
+});
+at("divider").addEventListener("keydown", (event) => {
+  const by = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
+  if (by) divideAt(page.divider + by), event.stopPropagation();
+});
+at("compared").addEventListener("change", () => { page.compared = at("compared").value, draw(); });
+
+const short = (v) => (v === null ? "none" : String(Number(v.toPrecision(4))));
+function describeDifference() {
+  const d = page.frame.difference;
+  if (!d) return at("difference").textContent = isRadiance() ? "the coarse picture is not compared" : "";
+  at("difference").textContent = [`relMSE ${short(d.relMse)}`, `MSE ${short(d.mse)}`,
+    `bias ${d.bias === null ? "unknown" : percent(d.bias)}`, `PSNR ${d.psnr === null ? "without end" : `${short(d.psnr)} dB`}`,
+    `SSIM ${short(d.ssim)}`].join("\n");
+}
+
+// --- What is said --------------------------------------------------------------------------------------------------------
 
 const percent = (share) => `${Number((100 * share).toPrecision(2))} %`;
 function describe() {
@@ -135,7 +207,35 @@ function describe() {
     at("camera").parentElement.hidden = f.cameras.length === 0;
   }
   at("pause").setAttribute("aria-pressed", String(f.state === "paused"));
+  describeScene();
+  if (page.reference) describeDifference();
   showTools();
+}
+
+// Light, variants and time, where the scene has them; what is being moved is not moved back.
+const degrees = (v) => `${Number(v.toFixed(1))}°`, seconds = (v) => `${Number(v.toFixed(2))} s`;
+const around = (v, least) => least + ((((v - least) % 360) + 360) % 360); // the same angle, from `least` on
+function describeScene() {
+  const f = page.frame, isAnimated = f.animationSeconds > 0;
+  const place = (id, value, inWords) => {
+    at(id).parentElement.hidden = value === null;
+    if (value === null || changing === id) return;
+    at(id).value = value, at(`${id}-value`).textContent = inWords(value);
+  };
+  if (changing === null) page.sun = f.sun;
+  place("turn", f.turn === null ? null : around(f.turn, -180), degrees);
+  place("azimuth", f.sun === null ? null : around(f.sun[0], 0), degrees);
+  place("elevation", f.sun === null ? null : f.sun[1], degrees);
+  at("light-tools").hidden = settings.readOnly || (f.turn === null && f.sun === null);
+  if (at("variant").options.length !== f.variants.length + 1)
+    at("variant").replaceChildren(new Option("of the file", -1), ...f.variants.map((name, i) => new Option(name, i)));
+  at("variant").value = f.variants.indexOf(f.variant);
+  at("variant").parentElement.hidden = f.variants.length === 0;
+  at("seconds").max = f.animationSeconds;
+  place("seconds", isAnimated ? f.atSeconds ?? 0 : null, seconds);
+  at("at-rest").hidden = !isAnimated;
+  at("at-rest").setAttribute("aria-pressed", String(f.atSeconds === null));
+  at("scene-tools").hidden = settings.readOnly || (f.variants.length === 0 && !isAnimated);
 }
 
 function showTools() {
@@ -258,7 +358,6 @@ async function probe(event) {
 }
 
 function showProbe(p) {
-  const short = (v) => (v === null ? "none" : String(Number(v.toPrecision(4))));
   const list = (v) => v.map(short).join("  ");
   const rows = { pixel: `${p.x} ${p.y}`, radiance: list(p.radiance), "its error": list(p.standardError),
     noise: p.noise === null ? "unknown" : percent(p.noise), samples: short(p.samples), albedo: list(p.albedo),
@@ -303,6 +402,31 @@ at("fov").addEventListener("input", () => moveAndRest({ ...page.pose, fov: Numbe
 at("aperture").addEventListener("change", () => {
   if (page.pose) moveTo({ ...page.pose, aperture: lens() }, false);
 });
+// Sliders of what makes the picture: many steps, and the last one.
+let changing = null, changed = 0;
+function slides(id, digits, inWords, wanted) {
+  at(id).addEventListener("input", () => {
+    const value = Number(Number(at(id).value).toFixed(digits));
+    changing = id;
+    at(`${id}-value`).textContent = inWords(value);
+    steer({ ...wanted(value), moving: 1 });
+    clearTimeout(changed);
+    changed = setTimeout(() => { changing = null, steer({ moving: 0 }); }, 250);
+  });
+}
+function sunAt(azimuth, elevation) {
+  page.sun = [azimuth, elevation];
+  return { azimuth, elevation };
+}
+slides("turn", 1, degrees, (turn) => ({ turn }));
+slides("azimuth", 1, degrees, (azimuth) => sunAt(azimuth, page.sun[1]));
+slides("elevation", 1, degrees, (elevation) => sunAt(page.sun[0], elevation));
+slides("seconds", 3, seconds, (at) => ({ seconds: at }));
+at("variant").addEventListener("change", () => steer({ variant: at("variant").value }));
+at("at-rest").addEventListener("click", () => {
+  if (!(page.frame?.animationSeconds > 0)) return;
+  steer({ seconds: page.frame.atSeconds === null ? at("seconds").value : -1 });
+});
 const toggled = (id) => {
   const on = at(id).getAttribute("aria-pressed") !== "true";
   at(id).setAttribute("aria-pressed", String(on));
@@ -336,5 +460,6 @@ at("command").addEventListener("click", async () => {
 
 if (settings.readOnly) at("camera-tools").hidden = at("keys").hidden = at("command").hidden = true;
 showTools();
+if (settings.reference) fetchReference().catch((error) => say(error.message));
 window.stromboli = page; // for who looks at it from the console
 follow();

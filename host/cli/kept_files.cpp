@@ -1,0 +1,192 @@
+// What checkpoints and films say of renders that may still go on.
+#include "host/cli/kept_files.hpp"
+
+#include "host/checkpoint/checkpoint_file.hpp"
+#include "host/cli/log.hpp"
+#include "host/cli/progress.hpp"
+#include "host/cli/render_outputs.hpp"
+#include "host/core/error.hpp"
+#include "host/core/json.hpp"
+#include "host/core/printable.hpp"
+#include "host/engine/render_request.hpp"
+#include "host/farm/film_file.hpp"
+#include "host/film/shown_film.hpp"
+#include "host/render/kept_film.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+namespace stromboli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How far a render is.
+struct Kept {
+    std::string file, kind, scene, device, program;
+    uint32_t width = 0, height = 0; ///< of the part that it is of
+    double samples = 0, atMost = 0; ///< paths of a pixel, on the mean
+    std::string missing;            ///< of a film; empty: nothing
+    std::optional<UnfinishedFilm> unfinished;
+    std::optional<PictureNoise> noise;
+};
+
+KeptSums kindOf(const RenderIdentity& identity) {
+    return identity.backend == nameOf(BackendChoice::Vulkan) ? KeptSums::Sums : KeptSums::Means;
+}
+
+/// Paths of a pixel, on the mean.
+double meanPaths(const Film& film) {
+    double sum = 0;
+    for (const PixelStatistics& pixel : film.pixels)
+        sum += pixel.taken();
+    return sum * film.branches / double(std::max<size_t>(film.pixels.size(), 1));
+}
+
+double pathsAtMost(const RenderSettings& settings) {
+    return double(mostPathsOf(settings)) / double(settings.area.pixelCount());
+}
+
+void describe(Kept& kept, const RenderIdentity& identity, const RenderSettings& settings) {
+    const Crop part = settings.area.rendered();
+    kept.scene = identity.scene, kept.device = identity.device, kept.program = identity.program;
+    kept.width = part.width, kept.height = part.height;
+}
+
+Kept ofCheckpoint(const std::string& file) {
+    const Checkpoint checkpoint = readCheckpoint(file);
+    Kept kept{.file = file, .kind = "checkpoint"};
+    describe(kept, checkpoint.identity, checkpoint.state.settings);
+    const Film film = filmOf(checkpoint.state, kindOf(checkpoint.identity));
+    kept.samples = meanPaths(film);
+    kept.atMost = pathsAtMost(checkpoint.state.settings);
+    kept.noise = noiseOf(checkpoint.state, film);
+    return kept;
+}
+
+Kept ofFilm(const std::string& file) {
+    Kept kept{.file = file, .kind = "film"};
+    kept.unfinished = unfinishedFilm(file);
+    if (kept.unfinished) return kept;
+    const FilmReader reader(file);
+    const FilmHeader& header = reader.header();
+    describe(kept, header.identity, header.settings);
+    const double paths =
+        double(header.settings.estimator.branches) / double(header.settings.area.pixelCount());
+    kept.samples = double(header.samplesHeld()) * paths;
+    kept.atMost = double(header.samplesInAll()) * paths;
+    if (!header.isComplete()) kept.missing = missingFrom(header);
+    return kept;
+}
+
+/// The checkpoint itself, or those of its bands that there are.
+std::vector<Kept> allOf(const std::string& file) {
+    if (namesFilm(file)) return {ofFilm(file)};
+    if (fs::exists(file)) return {ofCheckpoint(file)};
+    std::vector<Kept> bands;
+    const uint32_t count = bandsKept(file);
+    for (uint32_t band = 0; band < count; ++band)
+        if (const std::string one = bandFile(file, band, count).string(); fs::exists(one))
+            bands.push_back(ofCheckpoint(one));
+    if (bands.empty())
+        throw UsageError(fmt::format("{}: there is none: no checkpoint was written yet, or the "
+                                     "render is finished",
+                                     file));
+    return bands;
+}
+
+Json jsonOf(const Kept& kept) {
+    Json json = {{"file", printable(kept.file)}, {"kind", kept.kind}};
+    if (kept.unfinished) {
+        json["isComplete"] = false;
+        json["rows"] = kept.unfinished->rows;
+        json["allRows"] = kept.unfinished->allRows;
+        return json;
+    }
+    json["isComplete"] = true;
+    json["scene"] = printable(kept.scene);
+    json["device"] = printable(kept.device);
+    json["program"] = printable(kept.program);
+    json["width"] = kept.width;
+    json["height"] = kept.height;
+    json["samples"] = kept.samples;
+    json["samplesAtMost"] = kept.atMost;
+    json["missing"] = kept.missing;
+    if (kept.noise && kept.noise->known())
+        json["noise"] = {{"estimate", kept.noise->estimate},
+                         {"least", kept.noise->least},
+                         {"most", kept.noise->most}};
+    return json;
+}
+
+void print(const Kept& kept) {
+    if (kept.unfinished)
+        return fmt::print("film {}: {}\n", printable(kept.file), inWords(*kept.unfinished));
+    fmt::print("{} {}: {:.6g} samples a pixel of at most {:.6g}\n", kept.kind, printable(kept.file),
+               kept.samples, kept.atMost);
+    fmt::print("  {} x {} pixels of {}, on {}, by {}\n", kept.width, kept.height,
+               printable(kept.scene), printable(kept.device), printable(kept.program));
+    if (!kept.missing.empty()) fmt::print("  {}\n", kept.missing);
+    if (kept.noise) fmt::print("  {}\n", inWords(*kept.noise));
+}
+
+} // namespace
+
+bool isKeptRender(const std::string& file) {
+    return namesFilm(file) || isCheckpoint(file) || file.ends_with(".checkpoint") ||
+           file.find(".checkpoint.band") != std::string::npos;
+}
+
+int infoOfKeptRender(const std::string& file, const std::string& jsonFile) {
+    const std::vector<Kept> all = allOf(file);
+    nowDoing("printing", StatusLine::OfOthers);
+    if (!jsonFile.empty()) {
+        Json json = Json::array();
+        for (const Kept& kept : all)
+            json.push_back(jsonOf(kept));
+        writeOutput(jsonFile, json.dump(2) + "\n");
+        return 0;
+    }
+    for (const Kept& kept : all)
+        print(kept);
+    return 0;
+}
+
+int mergeCheckpoint(const std::string& file, const MergeOptions& options) {
+    if (namesFilm(options.output.file))
+        throw UsageError(fmt::format("{}: a checkpoint becomes a picture, not a film", file));
+    const auto [identity, state] = readCheckpoint(file);
+    if (!state.settings.estimator.showsBackdrop)
+        logging::warn(fmt::format("{} has no alpha, which the finished picture has", file));
+    Film film = filmOf(state, kindOf(identity));
+    const PictureNoise noise = noiseOf(state, film);
+    const std::string samples =
+        fmt::format("{:.6g} a pixel of at most {:.6g}; the render is not finished", meanPaths(film),
+                    pathsAtMost(state.settings));
+    if (options.wantsAllShares)
+        throw UsageError(fmt::format("{} is not written: {}", options.output.file, samples));
+    showNeighbours(film, NoisePlan::kCoarsest);
+    PictureNotes notes;
+    if (options.output.notes)
+        notes = pictureNotes({identity.scene,
+                              state.settings.estimator.seed,
+                              samples,
+                              identity.device,
+                              {},
+                              inWords(noise)});
+    nowDoing("writing " + options.output.file);
+    PictureFile picture(
+        options.output.file, film.area,
+        {options.tone, options.output.statisticsChannels, {}, options.output.encoding});
+    picture.place(film);
+    sayWhatWasMetered(options.tone, picture.write(notes));
+    logging::info(fmt::format("{}: {}", file, samples));
+    if (state.settings.estimator.integrator == Integrator::Path) logging::info(inWords(noise));
+    return 0;
+}
+
+} // namespace stromboli
