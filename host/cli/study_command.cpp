@@ -108,7 +108,7 @@ struct Held {
 /// before: a picture of one sample brings them.
 study::PreparedRender prepareDenoised(const std::string& device, const RenderOptions& options,
                                       PreparedPicture&& prepared) {
-    struct Kept {
+    struct Measured {
         PreparedPicture prepared;
         RenderRequest request;
         std::optional<study::MeasuredPicture> picture;
@@ -116,7 +116,7 @@ study::PreparedRender prepareDenoised(const std::string& device, const RenderOpt
         std::optional<bench::CpuClock> cpu;
         std::optional<RenderSession> session;
     };
-    auto kept = std::make_shared<Kept>();
+    auto kept = std::make_shared<Measured>();
     kept->prepared = std::move(prepared);
     kept->request = options.picture;
     Listener listener;

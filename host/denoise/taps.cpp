@@ -10,7 +10,7 @@ namespace {
 constexpr int kDense = 4;
 constexpr int kStep = 2;
 /// Deviations of the candidates' weights by distance, in pixels.
-constexpr double kStrict = 6, kNarrow = 2, kWide = 8;
+constexpr double kStrict = 4, kNarrow = 1.5, kWide = 8;
 
 /// A Gaussian's.
 float exponent(int square, double deviation) {

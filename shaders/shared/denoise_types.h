@@ -93,7 +93,7 @@ SHARED_CONST vec3 DENOISE_SCALE2 = vec3(1.0f / (0.2f * 0.2f), 1.0f / (0.15f * 0.
 SHARED_CONST vec3 DENOISE_COLOR_SCALE = vec3(1.0f / (0.6f * 0.6f), 1.0f / (1.5f * 1.5f), 1.0f / (1.5f * 1.5f));
 
 /// Pixels to each side of the pilot's window, and of that over which moments are summed.
-SHARED_CONST int DENOISE_PILOT_REACH = 2;
+SHARED_CONST int DENOISE_PILOT_REACH = 3;
 SHARED_CONST int DENOISE_WINDOW_REACH = 5;
 
 /// What rounding leaves of a pixel's relative squared error: (2^-20)^2. Less noise than that is none.
