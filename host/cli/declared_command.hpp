@@ -294,6 +294,7 @@ void checkOutputOptions(const DeclaredCommand& command, const OutputOptions& out
                         const RenderRequest& picture);
 /// --transparent, --layers.
 void declareSeen(OptionList& list, RenderRequest& picture);
+void finishSeen(const DeclaredCommand& command, SceneRequest& scene, RenderRequest& picture);
 
 /// Size, camera, crop; of a command that makes several pictures also several cameras.
 void declarePicture(OptionList& list, RenderRequest& picture, Asked& asked, bool several = false);

@@ -7,12 +7,14 @@
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/engine/renderer.hpp"
+#include "host/engine/shadow_catcher.hpp"
 #include "host/reference/reference_backend.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <memory>
 
 namespace stromboli {
 namespace {
@@ -104,7 +106,12 @@ std::vector<PixelByBackend> explainAll(Renderer& renderer, const RenderOptions& 
 int explainPixel(const RenderOptions& options) {
     const PixelQuestion& asked = *options.pixelAlone;
     Renderer renderer(options.device, toTerminal());
-    const PreparedPicture prepared = preparePicture(options);
+    PreparedPicture prepared = preparePicture(options);
+    if (const std::optional<std::string>& catcher = options.picture.shadowCatcher) {
+        requireCatcher(*prepared.scene.scene, *catcher);
+        prepared.scene.scene =
+            std::make_shared<Scene>(withoutCatcher(*prepared.scene.scene, *catcher));
+    }
     const Scene& scene = *prepared.scene.scene;
     const ResolvedPicture picture = pictureOfPixel(prepared.picture, asked);
     renderer.begin(prepared.scene.scene, picture, 0);

@@ -179,10 +179,11 @@ void declareSeen(OptionList& list, RenderRequest& o) {
               "shadows, and the light that objects throw on it, are: in alpha, or on the "
               "--background",
               [&o] { o.shadowCatcher = kGroundName; })
-        .excludes("--share", "films have no place for it");
+        .excludes("--share", "films have no place for it")
+        .excludes("--cs184");
     list.words("--shadows-on", "NAME",
-               "the same with this object of the scene, or all that has this material, in place "
-               "of a floor",
+               "as --shadow-catcher, on this object of the scene, or on all that has this "
+               "material, in place of a floor",
                1,
                [&o](const Words& words) {
                    if (words[0].empty()) throw UsageError("--shadows-on is empty: expected text");
@@ -216,6 +217,11 @@ void declareSeen(OptionList& list, RenderRequest& o) {
         .proposes(namesOf<Layer>());
 }
 
+void finishSeen(const DeclaredCommand& c, SceneRequest& scene, RenderRequest& picture) {
+    if (c.has("--shadow-catcher")) scene.ground.isGiven = true;
+    if (picture.shadowCatcher) picture.transparent = !picture.background;
+}
+
 void checkOutputOptions(const DeclaredCommand& c, const OutputOptions& o,
                         const RenderRequest& picture) {
     const bool isExr = !isToneMapped(o.file);
@@ -225,9 +231,11 @@ void checkOutputOptions(const DeclaredCommand& c, const OutputOptions& o,
         throw UsageError(fmt::format(
             "--layers needs an EXR file (-o name.exr): {} has no channels for them", o.file));
     if (picture.transparent && formatOf(o.file) == PictureFormat::Jpeg)
-        throw UsageError(fmt::format("--transparent: {} is a JPEG, which has no alpha: write .png, "
-                                     ".webp or .exr",
-                                     o.file));
+        throw UsageError(fmt::format("{}: {} is a JPEG, which has no alpha: write .png, .webp or "
+                                     ".exr{}",
+                                     picture.shadowCatcher ? "--shadow-catcher" : "--transparent",
+                                     o.file,
+                                     picture.shadowCatcher ? ", or give a --background" : ""));
     checkToneMapping(c, o);
 }
 

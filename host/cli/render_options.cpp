@@ -256,8 +256,7 @@ void finishRender(DeclaredCommand& c, RenderOptions& o, const Asked& asked) {
     finishBudget(o.picture, asked);
     o.cameras = asked.cameras;
     if (asked.pixelAlone) o.pixelAlone = asked.pixel;
-    if (c.has("--shadow-catcher")) o.scene.ground.isGiven = true;
-    if (o.picture.shadowCatcher) o.picture.transparent = !o.picture.background;
+    finishSeen(c, o.scene, o.picture);
     o.device.maybeSeveral = !asked.pixelAlone;
     o.device.threads = c.host.threads;
     o.command = c.pictureCommand;

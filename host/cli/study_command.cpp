@@ -74,7 +74,8 @@ RenderOptions renderLine(const std::string& scene, const std::vector<std::string
     line.insert(line.end(), words.begin(), words.end());
     const std::optional<ParsedCommand> parsed = parseOptions(line);
     const RenderOptions* options = parsed ? std::get_if<RenderOptions>(&parsed->options) : nullptr;
-    if (!options || options->picture.crop.width != 0 || options->pixelAlone)
+    if (!options || options->picture.crop.width != 0 || options->pixelAlone ||
+        options->picture.shadowCatcher)
         throw UsageError(fmt::format("a study renders whole pictures: {}", fmt::join(words, " ")));
     if (!options->output.statsFile.empty() || options->output.statisticsChannels ||
         !options->device.device.empty() || parsed->host.verbosity != Verbosity::Normal)
@@ -104,8 +105,8 @@ struct Held {
     BuiltScene built;
 };
 
-/// Takes the picture by a session of the engine, which denoises it. Scene and kernel are there
-/// before: a picture of one sample brings them.
+/// Takes the picture by a session of the engine, which denoises it. The scene is there
+/// before, and times begin with the first sample.
 study::PreparedRender prepareDenoised(const std::string& device, const RenderOptions& options,
                                       PreparedPicture&& prepared) {
     struct Measured {

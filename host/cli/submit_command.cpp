@@ -124,6 +124,7 @@ void finishSubmit(DeclaredCommand& c, SubmitOptions& o, const Asked& asked) {
     finishPicture(c, o.picture, asked);
     finishEstimator(c, o, asked);
     finishBudget(o.picture, asked);
+    finishSeen(c, o.scene, o.picture);
     if (!asked.cameras.empty())
         throw UsageError("submit is of one picture: --camera names several");
     o.command = c.pictureCommand;

@@ -26,7 +26,7 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     keeping_ = keeping;
     request_ = toGoOn(request, keeping);
     if (request_.shadowCatcher) {
-        requireCatcher(*scene_, *request_.shadowCatcher);
+        requireCatcher(*scene_, *request_.shadowCatcher); // resolvePicture() comes too late
         hideCatcher(*request_.shadowCatcher);
         request_.transparent = !request_.background;
     }
@@ -107,8 +107,10 @@ RenderSettings RenderSession::settingsOfBand() const {
     const uint64_t pixels = settings.area.pixelCount();
     double& seconds = settings.budget.stop.seconds;
     const double used = secondsBefore_ + result_.renderSeconds;
-    if (seconds > 0 && pixels < left)
+    if (seconds > 0 && used > 0)
         seconds = std::max((seconds - used) * double(pixels) / double(left), 1e-3); // it begins
+    else if (seconds > 0)
+        seconds *= double(pixels) / double(left);
     return settings;
 }
 
@@ -172,8 +174,8 @@ bool RenderSession::takePass(const SessionEvents& events) {
         bandIsOver_ = false;
     }
     if (bands_.empty()) prepare();
-    if (!sampling_) beginBand();
     if (request_.shadowCatcher && !caught_) catchLight(events);
+    if (!sampling_) beginBand();
     Next next = Next::GoOn;
     if (isDenoisedEnough()) sampling_->finish();
     const bool hasMore = sampling_->pass([&](const RenderProgress& state) {
@@ -246,13 +248,15 @@ const Film& RenderSession::film() const {
     return sampling_->film();
 }
 
-/// Alpha does not depend on the samples.
+/// Kept until there are more samples: pixels without any show a neighbour's.
 const std::vector<float>& RenderSession::covered() {
-    if (!covered_.empty()) return covered_;
+    const uint64_t samples = sampling_->samplesDone();
+    if (!covered_.empty() && coveredAt_ == samples) return covered_;
     RenderRequest looks = request_;
     looks.transparent = true;
     looks.denoiser = Denoiser::Off;
     looks.layers.clear();
+    coveredAt_ = samples;
     return covered_ = std::move(see(film(), looks).channel(kAlphaChannel));
 }
 

@@ -158,7 +158,8 @@ class RenderSession {
                    const std::function<bool()>& isUnwanted = {});
     const std::vector<float>& covered();
     void catchLight(const SessionEvents& events);
-    Film takeCaught(Scene scene, const SessionEvents& events, std::vector<float>& coverage);
+    Film takeCaught(Scene scene, uint32_t samples, const SessionEvents& events,
+                    std::vector<float>& coverage);
     bool denoises() const { return request_.denoiser != Denoiser::Off && !result_.lost; }
     const Denoised& denoisedNow() { return *denoisedNowUnless({}); }
     const Denoised* denoisedNowUnless(const std::function<bool()>& isUnwanted);
@@ -194,6 +195,7 @@ class RenderSession {
     std::vector<PartNoise> noises_;
     std::optional<FloatImage> guide_;   ///< layers that the denoiser looks at
     std::vector<float> covered_;        ///< alpha of the band's objects, where something is behind
+    uint64_t coveredAt_ = 0;            ///< of so many samples
     std::optional<CaughtLight> caught_; ///< of the band, where the request has a shadow catcher
     RenderProgress lastTold_;
     std::optional<Denoised> denoised_;

@@ -12,15 +12,16 @@
 namespace stromboli {
 namespace {
 
-/// What of a scene is the catcher: an object if one has its name, else all that has the material.
+/// What of a scene is the catcher: the last object of its name (--ground comes after all objects of
+/// a file, one of which may be called like it), else all that has a material of that name.
 struct Catcher {
     const Scene& scene;
     std::optional<uint32_t> instance, material;
 
     Catcher(const Scene& s, const std::string& name) : scene(s) {
-        const auto object = std::ranges::find(s.instances, name);
-        if (object != s.instances.end()) {
-            instance = uint32_t(object - s.instances.begin());
+        const auto object = std::find(s.instances.rbegin(), s.instances.rend(), name);
+        if (object != s.instances.rend()) {
+            instance = uint32_t(s.instances.rend() - object - 1);
             return;
         }
         const auto named = std::ranges::find(s.materials, name, &Material::name);
@@ -128,11 +129,19 @@ Scene withoutCatcher(const Scene& scene, const std::string& catcher) {
     return std::move(separated.scene);
 }
 
+namespace {
+
+void switchOffGlow(Scene& scene) {
+    for (Material& material : scene.materials)
+        if (glows(material)) material.emission = glm::vec3(0);
+}
+
+} // namespace
+
 Scene catcherAmongObjects(const Scene& scene, const std::string& catcher) {
     Separated separated(scene, catcher);
     separated.hideAllElse();
-    for (Material& material : separated.scene.materials)
-        if (glows(material)) material.emission = glm::vec3(0);
+    switchOffGlow(separated.scene);
     return std::move(separated.scene);
 }
 
@@ -152,12 +161,15 @@ bool objectsGlow(const Scene& scene) {
 
 Scene catcherAlone(const Scene& scene, const std::string& catcher) {
     Separated separated(scene, catcher);
-    keepOnly(separated.scene, [&](uint32_t material) {
-        return separated.isCatcher[material] || (separated.scene.materials[material].emits() &&
-                                                 !glows(separated.scene.materials[material]));
+    Scene& alone = separated.scene;
+    // Lights are chosen by the scene's size, and have to be chosen as among the objects.
+    alone.framing = scene.framed();
+    switchOffGlow(alone);
+    keepOnly(alone, [&](uint32_t material) {
+        return separated.isCatcher[material] || alone.materials[material].emits();
     });
     separated.hideAllElse();
-    return std::move(separated.scene);
+    return std::move(alone);
 }
 
 CaughtLight caughtLight(const Film& amongObjects, const Film& alone, const Film& glow,

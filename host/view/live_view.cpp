@@ -43,6 +43,9 @@ LiveView::LiveView(RenderSession& session, Exchange& exchange, LiveRequest reque
     request_.picture.size = full_;
     request_.picture.crop = settings.area.crop;
     request_.picture.branches = settings.estimator.branches;
+    // Coarse pictures have other pixels, and what is sharp is looked for once.
+    const Camera& camera = session_.picture().camera;
+    if (camera.lensRadius > 0) request_.picture.camera.focus = camera.focusDistance;
     if (request_.reference) {
         requireSize(request_.reference->picture, settings.area.rendered());
         showing_.compareWith(request_.reference);

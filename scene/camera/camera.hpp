@@ -78,7 +78,7 @@ struct CameraRequest {
     /// Radians, over the height of the picture: in place of the angle that the camera has.
     std::optional<double> fieldOfView;
     double aperture = 0; ///< diameter of the lens, metres; 0: a pinhole
-    /// Of this lens, or of the camera's own; empty: the middle, or what the camera says.
+    /// Where this lens, or the camera's own, is sharp; empty: the middle, or what the camera says.
     std::optional<Focus> focus;
     /// Radians, by which the camera is turned about the vertical axis through the scene's middle,
     /// counter-clockwise seen from above.
@@ -138,7 +138,7 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
 /// Frame: as close as shows all of a scene without a camera; else docs/guide/cs184.md.
 /// Throws SceneError if the file's camera is wanted and there is none, or none of that name, if
 /// an orthographic camera is to have an angle of view or a lens, and if a focus is asked for where
-/// there is no lens or nothing to focus on.
+/// there is no lens, or of a pixel that shows nothing.
 Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,
                   const FramingConventions& conventions = {});
 

@@ -5,8 +5,9 @@
 namespace stromboli {
 
 /// Sets how far from the camera its lens is sharp, as the request says, in a picture of that size.
-/// Cameras without a lens stay as they are. Throws SceneError if a focus is asked for and there is
-/// no lens, or nothing that a ray through the pixel, or through the picture, meets.
+/// Cameras without a lens stay as they are. Where the picture shows nothing that is far away.
+/// Throws SceneError if a focus is asked for and there is no lens, and if it is a pixel that shows
+/// nothing.
 void focusLens(Camera& camera, const Scene& scene, const CameraRequest& request,
                const PictureSize& picture);
 

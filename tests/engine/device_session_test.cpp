@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <future>
@@ -303,6 +304,57 @@ TEST(DeviceSession, SavedItGoesOnInAnotherToTheSameBytes) {
     first.run();
     EXPECT_TRUE(sameBytes(second.film(), first.film()));
     EXPECT_TRUE(sameBytes(first.film(), alone({}, scene, request)));
+}
+
+// --- Shadow catchers -----------------------------------------------------------------------------
+
+FloatImage pictureOf(const Scene& scene, const RenderRequest& request) {
+    RenderSession session;
+    session.begin(std::make_shared<const Scene>(scene), request);
+    session.run();
+    return session.pixels();
+}
+
+TEST(DeviceSession, AShadowCatcherOfItsOwnColourIsThePictureWithTheFloor) {
+    Scene scene = boardOverFloor({0.9F, 0.2F, 0.1F});
+    addSky(scene);
+    RenderRequest request = fromAbove(256);
+    request.background = Background{1, 1, {glm::vec3(kFloorAlbedo)}};
+    const std::vector<float> whole = pictureOf(scene, request).channels.at("R");
+    request.shadowCatcher = "floor";
+    const std::vector<float> caught = pictureOf(scene, request).channels.at("R");
+    double sum = 0, difference = 0;
+    for (size_t i = 0; i < whole.size(); ++i) {
+        EXPECT_NEAR(whole[i], caught[i], 0.07) << i; // four standard errors of some 3 % noise
+        sum += double(whole[i]), difference += double(caught[i] - whole[i]);
+    }
+    EXPECT_NEAR(difference / sum, 0, 0.01);
+}
+
+/// With lights near and far, of which either is chosen: the catcher alone chooses as among the
+/// objects.
+TEST(DeviceSession, AShadowCatcherCatchesNothingWhereObjectsChangeNothing) {
+    Scene scene = boardOverFloor(glm::vec3(0));
+    addSun(scene);
+    for (int i = 0; i < 4; ++i) {
+        Light lamp;
+        lamp.position = {i - 2, 1, 3};
+        lamp.constantAttenuation = 0, lamp.quadraticAttenuation = 1;
+        scene.lights.push_back(lamp);
+    }
+    const auto first = uint32_t(scene.positions.size()); // out of sight, and it widens the scene
+    for (const float x : {900.0F, 901.0F, 902.0F})
+        scene.positions.emplace_back(x, 0, x - 900);
+    Triangle far = scene.triangles.back();
+    far.corner[0] = first, far.corner[1] = first + 1, far.corner[2] = first + 2;
+    scene.triangles.push_back(far);
+    scene.positions.back().y = 1;
+    RenderRequest request = fromAbove(4);
+    request.shadowCatcher = "floor";
+    const std::vector<float> alpha = pictureOf(scene, request).channels.at(kAlphaChannel);
+    // Independent noise would make half of the ratios less than 1.
+    EXPECT_GT(std::ranges::count(alpha, 0.0F), 16 * 12 * 3 / 4);
+    EXPECT_GT(std::ranges::count(alpha, 1.0F), 4) << "the board";
 }
 
 } // namespace

@@ -25,6 +25,18 @@ Film alone(const DeviceRequest& device, std::shared_ptr<const Scene> scene,
 /// Whether all pixels have the same numbers of samples, means and squared deviations, to the bit.
 bool sameBytes(const Film& a, const Film& b);
 
+/// Of the floor of boardOverFloor().
+inline constexpr float kFloorAlbedo = 0.5F;
+/// A grey floor over all the picture, "floor" of the material "grey", and a board above it.
+Scene boardOverFloor(const glm::vec3& boardAlbedo);
+/// White from all around.
+void addSky(Scene& scene);
+/// Straight from above.
+void addSun(Scene& scene);
+/// Seen slantwise from above, so that the board covers a part of the picture and not all of its
+/// shadow.
+RenderRequest fromAbove(uint32_t samples);
+
 /// Keeps what an engine says.
 struct Told {
     std::vector<std::string> messages;

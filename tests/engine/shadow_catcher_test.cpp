@@ -2,6 +2,7 @@
 // it.
 #include "host/core/error.hpp"
 #include "host/engine/shadow_catcher.hpp"
+#include "scene/add_ground.hpp"
 #include "tests/engine/engine_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -13,59 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr float kFloorAlbedo = 0.5F;
 const DeviceRequest kByReference{.backend = BackendChoice::Reference};
-
-void addSquare(Scene& scene, float height, float reach, uint32_t material) {
-    const auto first = uint32_t(scene.positions.size());
-    for (const glm::vec2& p : {glm::vec2(-1, 1), {1, 1}, {1, -1}, {-1, -1}})
-        scene.positions.emplace_back(reach * p.x, height, reach * p.y);
-    const auto instance = uint32_t(scene.instances.size() - 1);
-    for (const uint32_t last : {2u, 3u}) {
-        Triangle t;
-        t.corner[0] = first, t.corner[1] = first + last - 1, t.corner[2] = first + last;
-        t.material = material, t.instance = instance;
-        scene.triangles.push_back(t);
-    }
-}
-
-/// A grey floor over all the picture, and a board above it.
-Scene boardOverFloor(const glm::vec3& boardAlbedo) {
-    Scene scene;
-    scene.file = "board";
-    scene.materials.resize(2);
-    scene.materials[0].name = "grey";
-    scene.materials[0].albedo = glm::vec3(kFloorAlbedo);
-    scene.materials[1].name = "board";
-    scene.materials[1].albedo = boardAlbedo;
-    scene.instances = {"floor"};
-    addSquare(scene, 0, 100, 0);
-    scene.instances.emplace_back("a board");
-    addSquare(scene, 0.5F, 0.5F, 1);
-    return scene;
-}
-
-void addSky(Scene& scene) {
-    scene.environment.emplace();
-    scene.environment->radiance = {glm::vec3(1)};
-}
-
-void addSun(Scene& scene) {
-    Light sun;
-    sun.kind = LightKind::Directional;
-    sun.direction = {0, -1, 0};
-
-    scene.lights.push_back(sun);
-}
-
-/// Seen slantwise from above, so that the board covers a part of the picture and not all of its
-/// shadow.
-RenderRequest fromAbove(uint32_t samples) {
-    RenderRequest request = smallPicture(samples, {16, 12});
-    request.camera.from = glm::dvec3(0, 3, 2);
-    request.camera.at = glm::dvec3(0, 0, 0);
-    return request;
-}
 
 FloatImage picture(const Scene& scene, const RenderRequest& request) {
     RenderSession session(kByReference);
@@ -144,6 +93,55 @@ TEST(ShadowCatcher, PicturesOfASessionAreThoseOfSessionsOfTheirOwn) {
     session.run();
     request.camera = other;
     EXPECT_EQ(session.pixels().channels, picture(scene, request).channels);
+}
+
+/// --ground comes after the objects of the file.
+TEST(ShadowCatcher, IsTheLastObjectOfItsName) {
+    Scene scene = boardOverFloor(glm::vec3(0.5));
+    scene.instances[0] = kGroundName;
+    addGround(scene, {.isGiven = true});
+    const Scene hidden = withoutCatcher(scene, kGroundName);
+    const auto isHidden = [&](size_t triangle) {
+        return hidden.materials[hidden.triangles[triangle].material].isHiddenFromCamera;
+    };
+    EXPECT_FALSE(isHidden(0)) << "the file's own";
+    EXPECT_TRUE(isHidden(hidden.triangles.size() - 1));
+}
+
+/// Both pictures choose their lights alike: what the scene frames is the same.
+TEST(ShadowCatcher, AloneHasTheSizeOfTheScene) {
+    Scene scene = boardOverFloor(glm::vec3(0.5));
+    const Bounds all = scene.framed(), alone = catcherAlone(scene, "floor").framed();
+    EXPECT_EQ(all.lo, alone.lo);
+    EXPECT_EQ(all.hi, alone.hi);
+}
+
+/// A catcher that glows by itself is no shadow of its own.
+TEST(ShadowCatcher, OfAGlowingFloorCatchesNothingByItself) {
+    Scene scene = boardOverFloor(glm::vec3(0));
+    scene.images.push_back({"white", 1, 1, TexelFormat::Rgba8, {0xFFFFFFFFu}});
+    scene.textures.push_back({});
+    scene.materials[0].emission = glm::vec3(1);
+    scene.materials[0].textures.push_back({TextureSlot::Emission});
+    for (const Material& m : catcherAlone(scene, "floor").materials)
+        EXPECT_FALSE(m.emits());
+}
+
+/// Who looks between passes changes nothing.
+TEST(ShadowCatcher, LookingChangesNothing) {
+    Scene scene = boardOverFloor(glm::vec3(0.5));
+    addSky(scene);
+    RenderRequest request = fromAbove(64);
+    request.budget.mostPathsPerPixel.reset();
+    request.budget.meanPathsPerPixel = 64;
+    request.shadowCatcher = "floor";
+    request.background = Background{1, 1, {glm::vec3(0.25)}};
+    const FloatImage unseen = picture(scene, request);
+    RenderSession session(kByReference);
+    session.begin(std::make_shared<const Scene>(scene), request);
+    while (session.pass())
+        static_cast<void>(session.pixels());
+    EXPECT_EQ(session.pixels().channels, unseen.channels);
 }
 
 TEST(ShadowCatcher, IsFoundByItsName) {
