@@ -108,7 +108,7 @@ constexpr Entry kEntries[] = {
      {"--quick", "room.gltf", "room.gltf --repeats 9 --json bench.json"}},
     {kJudging,
      "stress",
-     "Try the hard cases of docs/theory/hard_cases.md on the device: does it do them right?",
+     "Try the hard cases of docs/hard_cases.md on the device: does it do them right?",
      declareStress,
      "",
      {"", "--list", "bad-samples --full"}},

@@ -154,7 +154,7 @@ struct BenchOptions {
 };
 
 struct StressOptions {
-    std::vector<std::string> cases; ///< names, or numbers of docs/theory/hard_cases.md; empty: all
+    std::vector<std::string> cases; ///< names, or numbers of docs/hard_cases.md; empty: all
     bool list = false, full = false;
     std::string jsonFile; ///< empty: none
     std::string device;

@@ -1,4 +1,4 @@
-// `stress`: the hard cases of docs/theory/hard_cases.md on the device.
+// `stress`: the hard cases of docs/hard_cases.md on the device.
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/log.hpp"
@@ -131,7 +131,7 @@ void declareStress(DeclaredCommand& c) {
     c.list.flag("--list", "list the cases and run none", o->list);
     c.list.flag(
         "--full",
-        "as much of each as docs/theory/hard_cases.md states (1e8 rays, 1e7 bounces for each "
+        "as much of each as docs/hard_cases.md states (1e8 rays, 1e7 bounces for each "
         "scale): some ten minutes on two cores, instead of a part of it, half a minute",
         o->full);
     c.list.group("Output");

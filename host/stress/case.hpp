@@ -124,14 +124,14 @@ struct Finding {
 /// A hard case: a property that naive code lacks.
 struct Case {
     std::string name;
-    std::string numbers;  ///< in docs/theory/hard_cases.md
+    std::string numbers;  ///< in docs/hard_cases.md
     std::string property; ///< what holds if it passes
     std::string measure;  ///< what `measured` is
     std::string trial;    ///< what `trials` counts
     Finding (*run)(Run& run);
 };
 
-/// All of them, in the order of docs/theory/hard_cases.md. A file holds the groups of one theme.
+/// All of them, in the order of docs/hard_cases.md. A file holds the groups of one theme.
 const std::vector<Case>& allCases();
 
 std::vector<Case> edgeCases();         ///< rays at edges and corners

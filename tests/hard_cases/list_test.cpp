@@ -1,4 +1,4 @@
-// docs/theory/hard_cases.md: all 82 cases, and no test that is not there.
+// docs/hard_cases.md: all 82 cases, and no test that is not there.
 #include "host/stress/case.hpp"
 #include "source_dir.h"
 
@@ -25,7 +25,7 @@ std::string textOf(const std::filesystem::path& file) {
 /// The lines of the tables, without their heads.
 std::vector<std::string> rows() {
     std::vector<std::string> found;
-    std::istringstream in(textOf(kSource / "docs/theory/hard_cases.md"));
+    std::istringstream in(textOf(kSource / "docs/hard_cases.md"));
     for (std::string line; std::getline(in, line);)
         if (line.size() > 2 && line.starts_with("| ") && std::isdigit(line[2]))
             found.push_back(line);

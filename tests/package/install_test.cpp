@@ -46,7 +46,7 @@ TEST_F(Install, HasProgramScenesManualCompletionAndDocuments) {
           "share/man/man1/stromboli.1.gz", "share/bash-completion/completions/stromboli",
           "share/fish/vendor_completions.d/stromboli.fish",
           "share/zsh/vendor-completions/_stromboli", "share/doc/stromboli/README.md",
-          "share/doc/stromboli/docs/theory/hard_cases.md", "share/doc/stromboli/copyright",
+          "share/doc/stromboli/docs/hard_cases.md", "share/doc/stromboli/copyright",
           "share/doc/stromboli/changelog.gz"})
         EXPECT_TRUE(fs::is_regular_file(in(name))) << name;
     size_t scenes = 0;
