@@ -2,6 +2,7 @@
 
 #include "host/cli/declared_command.hpp"
 #include "host/cli/presets.hpp"
+#include "host/cli/word_spelling.hpp"
 #include "host/core/error.hpp"
 #include "host/core/nearest_name.hpp"
 #include "host/version/version.hpp"
@@ -42,15 +43,6 @@ std::string shortHelp() {
 
 // --- Words of command lines ----------------------------------------------------------------------
 
-namespace {
-
-bool isWholeNumber(const std::string& s) {
-    return !s.empty() &&
-           std::all_of(s.begin(), s.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-} // namespace
-
 std::string shellQuoted(const std::string& argument) {
     constexpr const char* kPlain =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
@@ -68,20 +60,6 @@ std::string commandLine() {
     for (std::string argument; std::getline(file, argument, '\0');)
         text += (text.empty() ? "" : " ") + shellQuoted(argument);
     return text;
-}
-
-std::vector<std::string> fromCs184Spelling(std::vector<std::string> arguments) {
-    for (size_t i = 0; i < arguments.size(); ++i) {
-        std::string& a = arguments[i];
-        const bool numberFollows = i + 1 < arguments.size() && isWholeNumber(arguments[i + 1]);
-        if (a == "-f")
-            a = "-o";
-        else if (a == "-o" && numberFollows)
-            a = "--accumulate";
-        else if (a == "-p")
-            a = "--cell";
-    }
-    return arguments;
 }
 
 // --- Parsing -------------------------------------------------------------------------------------
@@ -106,81 +84,6 @@ Words splitAllAtCommas(const Words& words) {
 /// The heading of --help that an option stands under; none: it is not listed.
 std::string groupOf(const CommandOption& o) {
     return o.isHidden ? "" : o.isCommon ? "The usual ones" : o.group;
-}
-
-/// The two numbers of "640x360"; empty if the word is anything else.
-Words joinedNumbers(const std::string& word) {
-    const size_t by = word.find_first_of("xX");
-    if (by == std::string::npos) return {};
-    const std::string first = word.substr(0, by), second = word.substr(by + 1);
-    return isWholeNumber(first) && isWholeNumber(second) ? Words{first, second} : Words{};
-}
-
-/// Whether a word names an option of which `is` holds.
-bool names(const OptionList& list, const std::string& word, bool CommandOption::*is) {
-    return std::ranges::any_of(list.all(), [&](const CommandOption& o) {
-        const Words dashed = o.dashedNames();
-        return o.*is && std::ranges::count(dashed, word) > 0;
-    });
-}
-
-/// "-r 640x360" is "-r 640 360", and so is "-r=640x360"; "-r 640x360 9" is left as it is.
-Words withoutJoinedNumbers(const OptionList& list, const Words& words) {
-    const auto mayBeJoined = [&](const std::string& name) {
-        return names(list, name, &CommandOption::mayBeJoined);
-    };
-    Words apart;
-    for (size_t i = 0; i < words.size(); ++i) {
-        const std::string& word = words[i];
-        const size_t equals = word.find('=');
-        const bool isBehindName =
-            equals != std::string::npos && mayBeJoined(word.substr(0, equals));
-        const bool isNext = !apart.empty() && mayBeJoined(apart.back());
-        const Words numbers = isBehindName ? joinedNumbers(word.substr(equals + 1))
-                              : isNext     ? joinedNumbers(word)
-                                           : Words{};
-        const bool anotherFollows = i + 1 < words.size() && isWholeNumber(words[i + 1]);
-        if (numbers.empty() || anotherFollows) {
-            apart.push_back(word);
-            continue;
-        }
-        if (isBehindName) apart.push_back(word.substr(0, equals));
-        apart.insert(apart.end(), numbers.begin(), numbers.end());
-    }
-    return apart;
-}
-
-/// "--focus 320 180" is "--focus 320,180".
-Words withNumbersTogether(const OptionList& list, const Words& words) {
-    Words together;
-    for (size_t i = 0; i < words.size(); ++i) {
-        const bool areTwo = i > 0 && i + 1 < words.size() && isWholeNumber(words[i]) &&
-                            isWholeNumber(words[i + 1]) &&
-                            names(list, words[i - 1], &CommandOption::mayBeApart);
-        together.push_back(areTwo ? words[i] + "," + words[i + 1] : words[i]);
-        if (areTwo) ++i;
-    }
-    return together;
-}
-
-/// "--watch room.xml" is "--watch 0 room.xml", since its number may be missing.
-Words withMissingNumbers(const OptionList& list, const Words& words) {
-    Words all;
-    for (size_t i = 0; i < words.size(); ++i) {
-        all.push_back(words[i]);
-        if (i + 1 < words.size() && isWholeNumber(words[i + 1])) continue;
-        for (const CommandOption& o : list.all())
-            if (!o.ifMissing.empty() && std::ranges::count(o.dashedNames(), words[i]) > 0)
-                all.push_back(o.ifMissing);
-    }
-    return all;
-}
-
-/// "help render" is "render --help", and "help" is "--help".
-Words withoutHelpCommand(const Words& words) {
-    if (words.empty() || words.front() != "help") return words;
-    if (words.size() == 1) return {"--help"};
-    return {words[1], "--help"};
 }
 
 void declare(CLI::App& app, const CommandOption& o, Given& given) {
@@ -346,12 +249,7 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
                     examples, exitCodesInOneLine(), kHowNumbersAreWritten));
     checkCommandName(commands, asked);
     const auto named = std::ranges::find(commands, asked.front(), &DeclaredCommand::name);
-    const Words words =
-        named == commands.end()
-            ? asked
-            : withMissingNumbers(
-                  named->list,
-                  withNumbersTogether(named->list, withoutJoinedNumbers(named->list, asked)));
+    const Words words = named == commands.end() ? asked : inUsualSpelling(named->list, asked);
     Given given;
     std::vector<CLI::App*> apps;
     for (const DeclaredCommand& c : commands) {

@@ -32,7 +32,7 @@ inline constexpr std::array kExitCodes = {
     Explained{"2", "scene"},
     Explained{"3", "device (or a difference found)"},
     Explained{"4", "output"},
-    Explained{"6", "too few samples for check to tell"},
+    Explained{"6", "too few samples for check to tell (or films left out of merge)"},
     Explained{"7", "nothing left to plan"},
 };
 
@@ -58,10 +58,5 @@ std::string shellQuoted(const std::string& word);
 
 /// This process's command line, quoted so that a shell would read it again.
 std::string commandLine();
-
-/// Rewrites what the CS184 renderer spells differently: `-f FILE` is `-o FILE`, `-o N` with a
-/// whole number is `--accumulate N` (a picture's name has an extension, so they cannot be
-/// confused), `-p` is `--cell`.
-std::vector<std::string> fromCs184Spelling(std::vector<std::string> arguments);
 
 } // namespace stromboli

@@ -43,7 +43,7 @@ enum class ExitCode : int {
     Scene = 2,
     Device = 3,
     Output = 4,
-    Undecided = 6,
+    TooFewSamples = 6, ///< to decide, or than films should have that were merged
     NothingLeft = 7
 };
 

@@ -278,7 +278,7 @@ namespace {
 ExitCode exitCodeOf(Verdict verdict) {
     return verdict == Verdict::Agree       ? ExitCode::Success
            : verdict == Verdict::Different ? ExitCode::Device
-                                           : ExitCode::Undecided;
+                                           : ExitCode::TooFewSamples;
 }
 
 /// An error is worse than a difference, and that than too few samples to tell.
@@ -287,7 +287,7 @@ ExitCode worseOf(ExitCode a, ExitCode b) {
         switch (code) {
         case ExitCode::Success:
             return 0;
-        case ExitCode::Undecided:
+        case ExitCode::TooFewSamples:
             return 1;
         case ExitCode::Device:
             return 2;

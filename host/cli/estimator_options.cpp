@@ -135,7 +135,7 @@ void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& ask
         e.integrator != Integrator::Path
             ? c.givenOf({"-m", "--min-bounce", "-l", "--direct", "-H", "--light-choice",
                          "--roulette", "--gap-proposal", "--guiding", "--terminator-offset",
-                         "--branches", "-a"})
+                         "--branches", "-a", "--clamp-indirect"})
             : "";
     if (!moot.empty())
         c.host.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",

@@ -274,16 +274,16 @@ int mergeCommand(const MergeOptions& options) {
     else
         checkWritable(options.output.file);
     for (const std::string& file : options.films)
-        if (isCheckpoint(file)) {
+        if (isKeptPicture(file)) {
             if (options.films.size() == 1) return mergeCheckpoint(file, options);
             throw UsageError(fmt::format("{}: a checkpoint is a picture of its own: merge takes "
                                          "one, or films",
                                          file));
         }
-    size_t merged = options.films.size();
+    size_t merged = options.films.size(), leftOut = 0;
     FilmsToMerge films({options.films.begin(), options.films.end()},
-                       [&merged](const fs::path& file, const UnfinishedFilm& film) {
-                           --merged;
+                       [&](const fs::path& file, const UnfinishedFilm& film) {
+                           --merged, ++leftOut;
                            logging::warn(
                                fmt::format("{} {}; it is left out", file.string(), inWords(film)));
                        });
@@ -307,9 +307,13 @@ int mergeCommand(const MergeOptions& options) {
     else
         noise = writeMergedPicture(films, options);
     logging::info(fmt::format("{} films, {}", merged, samplesNote(header)));
+    sayIfBiased(header.settings.estimator);
     if (noise && header.settings.estimator.integrator == Integrator::Path)
         logging::info(inWords(*noise));
-    return 0;
+    if (leftOut == 0) return 0;
+    logging::warn(fmt::format("{} lacks {} of {} films: exit code {}", options.output.file, leftOut,
+                              options.films.size(), int(ExitCode::TooFewSamples)));
+    return int(ExitCode::TooFewSamples);
 }
 
 } // namespace stromboli

@@ -10,7 +10,9 @@
 #include "host/core/printable.hpp"
 #include "host/engine/render_request.hpp"
 #include "host/farm/film_file.hpp"
+#include "host/farm/unfinished_film.hpp"
 #include "host/film/shown_film.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/render/kept_film.hpp"
 
 #include <fmt/format.h>
@@ -83,20 +85,27 @@ Kept ofFilm(const std::string& file) {
     return kept;
 }
 
-/// The checkpoint itself, or those of its bands that there are.
-std::vector<Kept> allOf(const std::string& file) {
-    if (namesFilm(file)) return {ofFilm(file)};
-    if (fs::exists(file)) return {ofCheckpoint(file)};
-    std::vector<Kept> bands;
+/// The checkpoint itself, or those of its bands that there are. Throws UsageError if there is none.
+std::vector<std::string> checkpointsOf(const std::string& file) {
+    if (fs::exists(file)) return {file};
+    std::vector<std::string> bands;
     const uint32_t count = bandsKept(file);
     for (uint32_t band = 0; band < count; ++band)
-        if (const std::string one = bandFile(file, band, count).string(); fs::exists(one))
-            bands.push_back(ofCheckpoint(one));
+        if (std::string one = bandFile(file, band, count).string(); fs::exists(one))
+            bands.push_back(std::move(one));
     if (bands.empty())
         throw UsageError(fmt::format("{}: there is none: no checkpoint was written yet, or the "
                                      "render is finished",
                                      file));
     return bands;
+}
+
+std::vector<Kept> allOf(const std::string& file) {
+    if (namesFilm(file)) return {ofFilm(file)};
+    std::vector<Kept> all;
+    for (const std::string& one : checkpointsOf(file))
+        all.push_back(ofCheckpoint(one));
+    return all;
 }
 
 Json jsonOf(const Kept& kept) {
@@ -141,6 +150,10 @@ bool isKeptRender(const std::string& file) {
            file.find(".checkpoint.band") != std::string::npos;
 }
 
+bool isKeptPicture(const std::string& file) {
+    return isCheckpoint(file) || (!namesFilm(file) && !fs::exists(file) && bandsKept(file) > 0);
+}
+
 int infoOfKeptRender(const std::string& file, const std::string& jsonFile) {
     const std::vector<Kept> all = allOf(file);
     nowDoing("printing", StatusLine::OfOthers);
@@ -156,36 +169,118 @@ int infoOfKeptRender(const std::string& file, const std::string& jsonFile) {
     return 0;
 }
 
+namespace {
+
+/// The picture that bands are of: those that no checkpoint is of yet are known to be there where
+/// the picture has no crop.
+PictureArea wholeOf(const std::string& file, const std::vector<std::string>& files,
+                    const std::vector<PictureArea>& bands) {
+    if (bands.size() == 1 && files.front() == file) return bands.front();
+    const PictureArea whole{bands.front().width, bands.front().height, {}};
+    const uint32_t count = bandsKept(file);
+    if (count <= whole.height) {
+        const std::vector<PictureArea> all = inBands(whole, count);
+        const auto isOne = [&](const PictureArea& band) {
+            return std::ranges::any_of(all, [&](const auto& b) { return sameArea(b, band); });
+        };
+        if (std::ranges::all_of(bands, isOne)) return whole;
+    }
+    const Crop first = bands.front().rendered(), last = bands.back().rendered();
+    return {
+        whole.width, whole.height, {first.x, first.y, first.width, last.y + last.height - first.y}};
+}
+
+/// What of all pixels of a render its checkpoints hold.
+struct KeptPicture {
+    std::vector<Film> films;
+    std::vector<PartNoise> noises;
+    RenderIdentity identity;
+    Estimator estimator;
+    PictureArea area;
+    double paths = 0, pathsAtMost = 0; ///< of a pixel, on the mean
+    bool isFinished = true;
+
+    std::string samples() const {
+        std::string text = fmt::format("{:.6g} a pixel of at most {:.6g}", paths, pathsAtMost);
+        return isFinished ? text : text + "; the render is not finished";
+    }
+};
+
+/// By its samples, or by the noise that was asked for; what a limit of time has ended is not known
+/// to be finished.
+bool isFinished(const RenderSettings& settings, double paths, const PictureNoise& noise) {
+    const double asked = settings.budget.stop.noise;
+    return paths >= pathsAtMost(settings) * (1 - 1e-9) ||
+           (asked > 0 && noise.known() && noise.most <= asked);
+}
+
+KeptPicture pictureOf(const std::string& file) {
+    const std::vector<std::string> files = checkpointsOf(file);
+    KeptPicture all;
+    std::vector<PictureArea> bands;
+    double pathsInAll = 0, mostInAll = 0;
+    uint64_t pixels = 0;
+    for (const std::string& one : files) {
+        const auto [identity, state] = readCheckpoint(one);
+        if (!bands.empty() && (identity.sceneSum != all.identity.sceneSum ||
+                               state.settings.area.width != bands.front().width ||
+                               state.settings.area.height != bands.front().height))
+            throw UsageError(fmt::format("{} is of another render than {}", one, files.front()));
+        Film film = filmOf(state, kindOf(identity));
+        const PictureNoise noise = noiseOf(state, film);
+        const double paths = meanPaths(film);
+        const uint64_t count = film.pixels.size();
+        all.isFinished = all.isFinished && isFinished(state.settings, paths, noise);
+        pathsInAll += paths * double(count);
+        mostInAll += pathsAtMost(state.settings) * double(count);
+        pixels += count;
+        showNeighbours(film, NoisePlan::kCoarsest);
+        all.noises.push_back({noise, count});
+        all.films.push_back(std::move(film));
+        bands.push_back(state.settings.area);
+        all.identity = identity;
+        all.estimator = state.settings.estimator;
+    }
+    all.area = wholeOf(file, files, bands);
+    const uint64_t missing = all.area.pixelCount() - pixels;
+    if (missing > 0) all.noises.push_back({{}, missing});
+    all.isFinished = all.isFinished && (files.front() == file || files.size() == bandsKept(file));
+    all.paths = pathsInAll / double(all.area.pixelCount());
+    all.pathsAtMost = mostInAll / double(pixels);
+    return all;
+}
+
+} // namespace
+
 int mergeCheckpoint(const std::string& file, const MergeOptions& options) {
     if (namesFilm(options.output.file))
         throw UsageError(fmt::format("{}: a checkpoint becomes a picture, not a film", file));
-    const auto [identity, state] = readCheckpoint(file);
-    if (!state.settings.estimator.showsBackdrop)
-        logging::warn(fmt::format("{} has no alpha, which the finished picture has", file));
-    Film film = filmOf(state, kindOf(identity));
-    const PictureNoise noise = noiseOf(state, film);
-    const std::string samples =
-        fmt::format("{:.6g} a pixel of at most {:.6g}; the render is not finished", meanPaths(film),
-                    pathsAtMost(state.settings));
-    if (options.wantsAllShares)
-        throw UsageError(fmt::format("{} is not written: {}", options.output.file, samples));
-    showNeighbours(film, NoisePlan::kCoarsest);
+    const KeptPicture kept = pictureOf(file);
+    if (options.wantsAllShares && !kept.isFinished)
+        throw UsageError(fmt::format("{} is not written: {}", options.output.file, kept.samples()));
+    if (!kept.estimator.showsBackdrop)
+        logging::warn(fmt::format("{} has nothing of what is seen behind objects: alpha, "
+                                  "--background and shadows are missing",
+                                  file));
+    sayIfBiased(kept.estimator);
+    const PictureNoise noise = togetherOf(kept.noises);
     PictureNotes notes;
     if (options.output.notes)
-        notes = pictureNotes({identity.scene,
-                              state.settings.estimator.seed,
-                              samples,
-                              identity.device,
+        notes = pictureNotes({kept.identity.scene,
+                              kept.estimator.seed,
+                              kept.samples(),
+                              kept.identity.device,
                               {},
                               inWords(noise)});
     nowDoing("writing " + options.output.file);
     PictureFile picture(
-        options.output.file, film.area,
+        options.output.file, kept.area,
         {options.tone, options.output.statisticsChannels, {}, options.output.encoding});
-    picture.place(film);
+    for (const Film& film : kept.films)
+        picture.place(film);
     sayWhatWasMetered(options.tone, picture.write(notes));
-    logging::info(fmt::format("{}: {}", file, samples));
-    if (state.settings.estimator.integrator == Integrator::Path) logging::info(inWords(noise));
+    logging::info(fmt::format("{}: {}", file, kept.samples()));
+    if (kept.estimator.integrator == Integrator::Path) logging::info(inWords(noise));
     return 0;
 }
 

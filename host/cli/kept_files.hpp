@@ -15,7 +15,10 @@ bool isKeptRender(const std::string& file);
 /// Prints it, or writes it as JSON. Returns the exit code.
 int infoOfKeptRender(const std::string& file, const std::string& jsonFile);
 
-/// Writes the picture that a checkpoint holds, as it is by now. Throws UsageError, OutputError.
+/// Whether the file is a checkpoint, or there are some of bands beside that name.
+bool isKeptPicture(const std::string& file);
+/// Writes the picture that a checkpoint, or those of bands, hold as it is by now. Throws
+/// UsageError, OutputError.
 int mergeCheckpoint(const std::string& file, const MergeOptions& options);
 
 } // namespace stromboli

@@ -249,7 +249,7 @@ int regressCommand(const RegressOptions& o) {
         return interruptedExitCode();
     }
     if (results.failed()) return int(ExitCode::Device);
-    return results.passed() ? int(ExitCode::Success) : int(ExitCode::Undecided);
+    return results.passed() ? int(ExitCode::Success) : int(ExitCode::TooFewSamples);
 }
 
 } // namespace stromboli

@@ -86,6 +86,11 @@ void logDenoised(const denoise::Summary& s) {
                                   s.unknownPixels));
 }
 
+void sayIfBiased(const Estimator& estimator) {
+    if (estimator.limitsLight())
+        logging::warn("--clamp-indirect removes light: the picture is biased");
+}
+
 void logReport(const RenderReport& report, const RenderSettings& settings) {
     const RenderResult& r = report.render;
     const double rate = double(r.counters.rays) * 1e-6 / std::max(r.renderSeconds, 1e-9);
@@ -111,8 +116,7 @@ void logReport(const RenderReport& report, const RenderSettings& settings) {
     if (settings.estimator.integrator == Integrator::Path && !report.isShare)
         logNoise(r, settings.budget.stop);
     if (r.denoised) logDenoised(*r.denoised);
-    if (settings.estimator.indirectLimit > 0)
-        logging::warn("--clamp-indirect removes light: the picture is biased");
+    sayIfBiased(settings.estimator);
     if (!r.firstRejected) return;
     logging::warn(fmt::format(
         "{} samples were not finite, negative or too large and were left out; to see the "

@@ -30,6 +30,8 @@ std::string inWords(const PictureNoise& noise);
 std::string percent(double share);
 /// Logs the error of a denoised picture and what was done to it.
 void logDenoised(const denoise::Summary& summary);
+/// Warns where light is missing by --clamp-indirect.
+void sayIfBiased(const Estimator& estimator);
 /// Logs time, paths, rays, Mrays/s, samples, noise, and the first rejected sample if there is one.
 void logReport(const RenderReport& report, const RenderSettings& settings);
 /// Says so if hardly anything can be seen in the picture, and what would help.

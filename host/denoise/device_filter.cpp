@@ -62,7 +62,7 @@ constexpr std::array<const char*, DENOISE_BINDING_COUNT> kNames = {
 /// The most that one of them takes.
 constexpr uint64_t kLargest = *std::ranges::max_element(kBytesPerPixel);
 
-/// Of a dispatch, where somebody may want it no longer: a tenth of a second on two cores.
+/// A dispatch has so many where somebody may want it no longer: a tenth of a second on two cores.
 constexpr uint32_t kRowsBetweenQuestions = 48;
 
 /// As for the path kernel's (docs/theory/kernel.md, "Fetch").

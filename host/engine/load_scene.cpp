@@ -53,6 +53,9 @@ float turnOwnEnvironment(Scene& scene, const SceneRequest& request) {
     if (scene.environment) {
         const float before = scene.environment->rotation;
         scene.environment->rotation = rotationOf(request.environment, before);
+        if (scene.environment->isConstant() && request.environment.rotationDegrees != 0)
+            scene.report.ignored.emplace_back("--env-rotate: the environment of the file is the "
+                                              "same all around");
         return before;
     }
     if (request.environment.rotationDegrees != 0)

@@ -108,7 +108,7 @@ class RenderSession {
 
     /// Means, variances and numbers of samples.
     const Film& film() const;
-    /// The same as it is shown: pixels without samples show a neighbour, and what the request wants
+    /// That film as it is shown: pixels without samples show a neighbour, and what the request wants
     /// behind the objects is there.
     Film shownFilm();
     /// Puts the light of the request's shadow catcher and its background, if it has them, behind
@@ -126,7 +126,7 @@ class RenderSession {
     /// the program's own. Kept until there are more samples. Throws std::logic_error before the
     /// first sample, DeviceError where the device is lost.
     const denoise::DenoisedPicture& denoised();
-    /// The same, for whoever may find out meanwhile that it is not wanted: asked several times a
+    /// As denoised(), for whoever may find out meanwhile that it is not wanted: asked several times a
     /// second, and null where that says so.
     const denoise::DenoisedPicture* denoisedUnless(const std::function<bool()>& isUnwanted);
 

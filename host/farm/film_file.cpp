@@ -1,10 +1,11 @@
-// A film: kMagic, the size and checksum of the header, the header; then each run of pixels: its
+// A film: kFilmMagic, the size and checksum of the header, the header; then each run of pixels: its
 // size, its checksum, and its numbers, compressed, and the same of its layers, if it holds them;
-// then kEnd.
+// then kFilmEnd.
 #include "host/farm/film_file.hpp"
 
 #include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
+#include "host/farm/film_marks.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -190,11 +191,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Changes with every change of what is written.
-constexpr std::string_view kMagic = "stromboli film 3\n";
-/// Not there in what is cut short.
-constexpr std::string_view kEnd = "end of film\n";
-
 /// Rows become columns.
 std::vector<float> transposed(std::span<const float> values, size_t rows, size_t columns) {
     std::vector<float> result(values.size());
@@ -231,7 +227,7 @@ bool namesFilm(const fs::path& path) {
 FilmWriter::FilmWriter(const fs::path& path, const FilmHeader& header)
     : file_(path), pixelsPerRun_(pixelsPerRun(header.settings.area)), pixelsLeft_(pixelsOf(header)),
       channels_(header.layerChannels()) {
-    file_.write(std::as_bytes(std::span(kMagic)));
+    file_.write(std::as_bytes(std::span(kFilmMagic)));
     writePart(file_, toBytes(header));
 }
 
@@ -264,7 +260,7 @@ void FilmWriter::writeRun() {
 
 void FilmWriter::finish() {
     if (pixelsLeft_ > 0) throw std::logic_error("the film lacks pixels");
-    file_.write(std::as_bytes(std::span(kEnd)));
+    file_.write(std::as_bytes(std::span(kFilmEnd)));
     file_.rename(Sync::Now);
 }
 
@@ -281,14 +277,14 @@ FilmReader::FilmReader(const fs::path& path, End wanted) : path_(path) {
     size_ = uint64_t(status.st_size);
     try {
         if (!S_ISREG(status.st_mode)) refuse("it is no film");
-        if (size_ < kMagic.size() ||
-            std::memcmp(read(kMagic.size()).data(), kMagic.data(), kMagic.size()) != 0)
+        if (size_ < kFilmMagic.size() ||
+            std::memcmp(read(kFilmMagic.size()).data(), kFilmMagic.data(), kFilmMagic.size()) != 0)
             refuse("not a film of this version of the program");
-        char end[kEnd.size()] = {};
-        const auto place = off_t(size_ - std::min<uint64_t>(size_, kEnd.size()));
+        char end[kFilmEnd.size()] = {};
+        const auto place = off_t(size_ - std::min<uint64_t>(size_, kFilmEnd.size()));
         if (wanted == End::Wanted &&
             (::pread(descriptor_, end, sizeof end, place) != ssize_t(sizeof end) ||
-             std::string_view(end, sizeof end) != kEnd))
+             std::string_view(end, sizeof end) != kFilmEnd))
             refuse("the film is cut short");
         const std::vector<std::byte> bytes = readPart();
         header_ = filmHeaderFromBytes(bytes, path_);
@@ -357,55 +353,6 @@ std::vector<std::byte> FilmReader::readPart() {
     std::vector<std::byte> bytes = read(size);
     if (checksumOf(bytes) != sum) refuse("the film is damaged");
     return bytes;
-}
-
-// --- Films that are being written ----------------------------------------------------------------
-
-namespace {
-
-/// Whether the file has the first bytes of a film, or fewer of them than its header takes.
-bool beginsAsFilm(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::string beginning(kMagic.size(), 0);
-    stream.read(beginning.data(), std::streamsize(beginning.size()));
-    beginning.resize(size_t(stream.gcount()));
-    return kMagic.starts_with(beginning);
-}
-
-/// Whether the last bytes are those that a complete film ends with.
-bool hasEnd(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::string end(kEnd.size(), 0);
-    stream.seekg(-std::streamoff(kEnd.size()), std::ios::end);
-    return stream.read(end.data(), std::streamsize(end.size())) && end == kEnd;
-}
-
-} // namespace
-
-std::string inWords(const UnfinishedFilm& film) {
-    if (film.allRows == 0) return "is still being written: nothing of it is complete";
-    return fmt::format("is still being written: {} of {} rows are complete", film.rows,
-                       film.allRows);
-}
-
-std::optional<UnfinishedFilm> unfinishedFilm(const fs::path& path) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error) || !beginsAsFilm(path) || hasEnd(path))
-        return std::nullopt;
-    UnfinishedFilm film;
-    try {
-        FilmReader reader(path, FilmReader::End::MayBeMissing);
-        const Crop all = reader.header().settings.area.rendered();
-        film.allRows = all.height;
-        std::vector<float> layers;
-        while (film.rows < film.allRows) {
-            const size_t pixels = reader.next().size();
-            reader.nextLayers(layers);
-            film.rows += uint32_t(pixels / all.width);
-        }
-    } catch (const UsageError&) { // here it ends
-    }
-    return film;
 }
 
 } // namespace stromboli

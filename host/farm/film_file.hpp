@@ -61,16 +61,7 @@ class FilmWriter {
     size_t channels_;
 };
 
-/// How far a film has come that is still being written under its name, as by a program that copies
-/// it; Stromboli gives films their name when they are complete.
-struct UnfinishedFilm {
-    uint32_t rows = 0;    ///< that are complete, from the top
-    uint32_t allRows = 0; ///< 0: its header is not complete
-};
-/// "is still being written: 12 of 90 rows are complete".
-std::string inWords(const UnfinishedFilm& film);
-/// Empty: the file is complete, or is no film's beginning.
-std::optional<UnfinishedFilm> unfinishedFilm(const std::filesystem::path& path);
+struct UnfinishedFilm;
 
 /// Reads a film, run by run: of a film of any size, no more than a run is in memory.
 class FilmReader {

@@ -2,6 +2,7 @@
 
 #include "host/farm/film_file.hpp"
 #include "host/farm/film_header.hpp"
+#include "host/farm/unfinished_film.hpp"
 #include "host/film/film.hpp"
 #include "host/film/image_file.hpp"
 #include "host/render/picture_noise.hpp"

@@ -108,7 +108,8 @@ class Packer {
     }
 
     void addEnvironment(const Environment& environment) {
-        if (!known_) known_ = std::make_shared<EnvironmentTable>(packEnvironment(environment));
+        known_ = std::make_shared<EnvironmentTable>(known_ ? turned(*known_, environment.rotation)
+                                                           : packEnvironment(environment));
         const LightBounds bounds = boundsOfEnvironment(known_->luminance);
         if (!shines(bounds)) return;
         out_.hasAmbient = true;

@@ -62,7 +62,7 @@ struct LightTable {
 
 /// placeOf: by primitive of the scene, what a LightEntry is to name an emissive triangle by.
 /// pictures: by light of the scene, the first row of its picture's TextureUse; empty: none has one.
-/// environment: of the scene's environment, where it was packed before.
+/// environment: of the scene's environment, where it was packed before, with any rotation.
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       const LightSelection& selection, std::span<const uint32_t> pictures = {},
                       std::shared_ptr<const EnvironmentTable> environment = {});

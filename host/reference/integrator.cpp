@@ -105,6 +105,7 @@ void PathSample::followBranches(uint32_t bounce) {
         surface_ = before.surface_;
         filling_ = before.filling_;
         throughput_ = before.throughput_;
+        uncounted_ = before.uncounted_;
         random_ = before.random_.branch(branch, settings_.branches);
         branch_ = branch + 1;
         if (branch > 0) noteReturn();
@@ -337,7 +338,7 @@ void PathSample::addLightSample(const LightSample& light, const glm::dvec3& f) {
     ++rays_;
     const glm::dvec3 passes =
         shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
-    const glm::dvec3 brings = limited(throughput_ * value * passes, scatterings_ + 1);
+    const glm::dvec3 brings = limited(throughput_ * value * passes, numberAfter(scatterings_));
     radiance_ += brings;
     noteLight(light,
               largest(passes) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow,
@@ -376,7 +377,7 @@ void PathSample::addHemisphereSamples() {
         if (filling.medium) found *= transmittance(*filling.medium, ray, 0, distance);
         const glm::dvec3 light =
             limited(throughput_ * weight * found * transmittance(filling.volume, distance),
-                    scatterings_ + 1);
+                    numberAfter(scatterings_));
         radiance_ += light;
         LightSample looked;
         looked.direction = direction;

@@ -229,6 +229,8 @@ struct Estimator {
     bool showsBackdrop = true; ///< the camera sees the environment, where the scene has one
     ShadingConventions conventions;
 
+    /// Light is missing by indirectLimit, so that the picture is biased.
+    bool limitsLight() const { return indirectLimit > 0 && integrator == Integrator::Path; }
     /// Hemisphere sampling by the convention of that name: it counts the lights and samples none.
     bool countsLightsForHemisphere() const {
         return conventions.hemispherePerLight && directLight == DirectLight::Hemisphere;

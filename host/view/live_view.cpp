@@ -92,6 +92,7 @@ void LiveView::beginCoarse(uint32_t coarseness) {
     isCoarse_ = true;
     isOver_ = false;
     level_ = coarseness;
+    isMeasured_ = false;
     share_ = 0;
     showing_.beginPicture();
 }
@@ -224,11 +225,13 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
     raysPerSecond_ = seconds > 0 ? double(std::max(raysNow, rays())) / seconds : 0;
 }
 
-/// The first picture after the next move takes about as long as is pleasant, until it is shown.
-void LiveView::chooseCoarseness() {
+/// The first picture after the next move takes about as long as this one would, in as many pixels,
+/// to be pleasant: until it is shown, which took `shown` seconds.
+void LiveView::chooseCoarseness(double shown) {
+    isMeasured_ = true;
     if (!isFirst_) return;
-    // Before the very first one a kernel was compiled, and the denoiser's were.
-    double seconds = epoch_ == 1 ? coarseSeconds_ : showing_.secondsOfPicture();
+    // Before the very first one the denoiser's kernels were compiled.
+    double seconds = epoch_ == 1 ? coarseSeconds_ : coarseSeconds_ + shown;
     for (; seconds > kSlowCoarse && coarseness_ < kCoarsest; seconds /= 4)
         coarseness_ *= 2;
     for (; seconds * 4 < 0.8 * kSlowCoarse && coarseness_ > kFinest; seconds *= 4)
@@ -251,11 +254,14 @@ void LiveView::attend() {
     const bool isFit = rests || samplesDone_ >= session_.picture().settings.area.pixelCount();
     if ((isStale_ && exchange_.isAwaited() && isFit && (rests || showing_.isDue())) ||
         (rests && exchange_.lacksAFrame())) {
+        const Stopwatch watch;
         // A coarse picture is always shown; one of full size may take longer than a move can wait.
         showing_.show(state(), false, [this] {
             return !isCoarse_ && (exchange_.isSteered() || loading_.isReady());
         });
         isStale_ = false;
+        // Once: it waits for somebody to look, and then may stay for long.
+        if (isCoarse_ && !isMeasured_) chooseCoarseness(watch.seconds());
     }
     exchange_.answer(*this);
 }
@@ -276,10 +282,8 @@ void LiveView::run(const std::function<bool()>& wantsToEnd) {
             exchange_.answer(*this);
             continue;
         }
-        const bool isNew = isStale_;
         attend();
         if (isCoarse_) {
-            if (isNew) chooseCoarseness();
             if (exchange_.isSteered()) continue;
             if (isPaused_) { // the coarse picture is what there is to be seen
                 exchange_.waitForWork(kLook);
@@ -306,6 +310,7 @@ ShownState LiveView::state() const {
     const Crop& crop = request_.picture.crop;
     s.fullWidth = crop.width > 0 ? crop.width : full_.width;
     s.fullHeight = crop.width > 0 ? crop.height : full_.height;
+    s.paused = isPaused_;
     s.state = loading_.isUnderWay()   ? "loading"
               : isPaused_             ? "paused"
               : isOver_ && !isCoarse_ ? "done"

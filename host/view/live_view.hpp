@@ -66,7 +66,7 @@ class LiveView final : public Answers {
     void beginFull();
     void refine();
     void pass(const std::function<bool()>& wantsToEnd);
-    void chooseCoarseness();
+    void chooseCoarseness(double shown);
     void attend();
     ShownState state() const;
     RenderRequest requestNow() const;
@@ -90,6 +90,7 @@ class LiveView final : public Answers {
     uint32_t coarseness_ = 4;  ///< of the first picture after a move
     uint32_t level_ = 4;       ///< of the coarse one that was begun last
     double coarseSeconds_ = 0; ///< that it took
+    bool isMeasured_ = false;  ///< it has been shown, and the next one's coarseness chosen
     Stopwatch sinceSteering_;
     uint64_t epoch_ = 0;
     uint64_t samplesDone_ = 0; ///< of the picture of full size

@@ -1,6 +1,8 @@
 #include "host/view/page.hpp"
 
 #include "embedded/view_html.h"
+#include "embedded/view_poses.h"
+#include "embedded/view_reference.h"
 #include "embedded/view_script.h"
 #include "embedded/view_style.h"
 #include "embedded/view_transforms.h"
@@ -29,10 +31,15 @@ std::string pageText(const PageFacts& facts) {
                            {"denoised", facts.denoised}, {"reference", facts.hasReference}};
     const std::string data = forScript(settings.dump());
     const std::pair<std::string_view, std::string_view> parts[] = {
-        {"@@NONCE@@", facts.nonce},          {"@@STYLE@@", textOf(view_style)},
-        {"@@NONCE@@", facts.nonce},          {"@@DATA@@", data},
-        {"@@NONCE@@", facts.nonce},          {"@@TRANSFORMS@@", textOf(view_transforms)},
+        {"@@NONCE@@", facts.nonce},
+        {"@@STYLE@@", textOf(view_style)},
+        {"@@NONCE@@", facts.nonce},
+        {"@@DATA@@", data},
+        {"@@NONCE@@", facts.nonce},
+        {"@@TRANSFORMS@@", textOf(view_transforms)},
+        {"@@POSES@@", textOf(view_poses)},
         {"@@SCRIPT@@", textOf(view_script)},
+        {"@@REFERENCE@@", textOf(view_reference)},
     };
     return filledIn(textOf(view_html), parts);
 }

@@ -97,6 +97,8 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
         {"fullHeight", state.fullHeight},
         {"coarse", state.coarse},
         {"state", state.state},
+        {"paused", state.paused},
+        {"biased", picture.settings.estimator.limitsLight()},
         {"share", state.share},
         {"samples", mean},
         {"mostSamples", most},

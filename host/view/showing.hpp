@@ -39,6 +39,7 @@ struct ShownState {
     uint64_t epoch = 0;  ///< numbers the pictures that were begun
     bool coarse = false; ///< in place of a picture of full size
     uint32_t fullWidth = 0, fullHeight = 0;
+    bool paused = false; ///< nothing is taken until a page says so, whatever `state` is
     std::string state;   ///< "rendering", "paused", "done", "loading"
     std::string problem; ///< why what was asked for last is not there; may be empty
     double share = 0;    ///< of the work that is done

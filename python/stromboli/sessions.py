@@ -265,6 +265,7 @@ def render(
     turn: Optional[float] = None,
     max_bounces: Optional[int] = None,
     min_bounce: Optional[int] = None,
+    clamp_indirect: Optional[float] = None,
     light_samples: Optional[int] = None,
     direct: Optional[str] = None,
     light_choice: Optional[str] = None,
@@ -302,6 +303,7 @@ def render(
     fov -- degrees over the height; turn -- degrees; aperture -- of a thin lens, metres
     focus -- metres, "auto" (what is in the middle), or the column and the row of a pixel
     max_bounces, min_bounce -- scatterings of light at most (8), and at least (0)
+    clamp_indirect -- light that was scattered twice or more brings at most this at a time: biased
     light_samples, direct, light_choice, roulette, gap_proposal, guiding, branches, integrator, sampler,
     filter -- as the options of the command line
     backend, device, scheduler, threads, film_memory -- as of Session
@@ -342,6 +344,7 @@ def render(
         turn=turn,
         max_bounces=max_bounces,
         min_bounce=min_bounce,
+        clamp_indirect=clamp_indirect,
         light_samples=light_samples,
         direct=direct,
         light_choice=light_choice,

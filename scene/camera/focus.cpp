@@ -134,11 +134,12 @@ std::vector<double> depthsSeen(const Camera& camera, const Scene& scene,
     for (const glm::dvec2& place : places)
         rays.push_back(rayThrough(camera, place));
     const DepthSearch search(camera, scene);
-    forTrianglesInWorld(scene, isSeen,
-                        [&](const std::array<glm::dvec3, 3>& corners, double, uint32_t triangle) {
-                            for (DepthRay& ray : rays)
-                                search.triangle(ray, corners, triangle);
-                        });
+    forTrianglesInWorld(
+        scene, isSeen,
+        [&](const std::array<glm::dvec3, 3>& corners, double, uint32_t triangle, uint32_t) {
+            for (DepthRay& ray : rays)
+                search.triangle(ray, corners, triangle);
+        });
     std::vector<double> depths;
     for (DepthRay& ray : rays) {
         for (const Sphere& sphere : scene.spheres)

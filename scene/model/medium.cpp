@@ -210,7 +210,7 @@ bool isBorder(const Material& material) {
 void searchBorders(const Scene& scene, BorderSearch& search) {
     forTrianglesInWorld(
         scene, isBorder,
-        [&](const std::array<glm::dvec3, 3>& corners, double facing, uint32_t triangle) {
+        [&](const std::array<glm::dvec3, 3>& corners, double facing, uint32_t triangle, uint32_t) {
             search.triangle(corners, facing, scene.materials[scene.triangles[triangle].material]);
         });
     for (const Sphere& s : scene.spheres)
@@ -236,7 +236,7 @@ uint32_t mediumAt(const Scene& scene, const glm::dvec3& place) {
     if (const std::optional<uint32_t> volume = volumeAt(scene, place)) return *volume;
     Bounds borders;
     forTrianglesInWorld(scene, isBorder,
-                        [&](const std::array<glm::dvec3, 3>& corners, double, uint32_t) {
+                        [&](const std::array<glm::dvec3, 3>& corners, double, uint32_t, uint32_t) {
                             for (const glm::dvec3& corner : corners)
                                 borders.extend(glm::vec3(corner));
                         });

@@ -1,6 +1,7 @@
 #include "scene/model/overlapping_volumes.hpp"
 
 #include "scene/model/scene.hpp"
+#include "scene/model/world_triangles.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -14,57 +15,57 @@ namespace {
 /// As many as a byte tells apart, with 0 for none (shaders/shared/medium_types.h).
 constexpr size_t kMostVolumes = 255;
 
-/// The boxes of volumes, by object and material.
+/// Boxes of borders: by object and material of volumes, by the media on both sides of borders that
+/// state both, which may be a region's only together.
 using Boxes = std::map<std::pair<uint32_t, uint32_t>, Bounds>;
 
-glm::vec3 inWorld(const Placement& placement, const glm::vec3& p) {
-    glm::vec3 world;
-    for (int i = 0; i < 3; ++i) {
-        const glm::vec4& row = placement.toWorld[size_t(i)];
-        world[i] = glm::dot(glm::vec3(row), p) + row.w;
-    }
-    return world;
-}
-
-Boxes boxesOf(const Scene& scene) {
+/// isOpen: of volumes; else of borders that state both sides.
+Boxes boxesOf(const Scene& scene, bool isOpen) {
     Boxes boxes;
-    const auto isOpen = [&](uint32_t material) { return scene.materials[material].outsideIsOpen; };
-    for (size_t i = scene.firstInWorld(); i < scene.triangles.size(); ++i) {
-        const Triangle& t = scene.triangles[i];
-        if (!isOpen(t.material)) continue;
-        Bounds& box = boxes[{t.instance, t.material}];
-        for (const uint32_t corner : t.corner)
-            box.extend(scene.positions[corner]);
-    }
-    for (const Placement& placement : scene.placements) {
-        const Prototype& prototype = scene.prototypes[placement.prototype];
-        for (uint32_t i = 0; i < prototype.triangles; ++i) {
-            const Triangle& t = scene.triangles[prototype.firstTriangle + i];
-            if (!isOpen(t.material)) continue;
-            Bounds& box = boxes[{placement.instance, t.material}];
-            for (const uint32_t corner : t.corner)
-                box.extend(inWorld(placement, scene.positions[corner]));
-        }
-    }
+    const auto isWanted = [&](const Material& m) {
+        return m.boundsMedia && m.outsideIsOpen == isOpen;
+    };
+    const auto boxOf = [&](uint32_t instance, uint32_t material) -> Bounds& {
+        const Material& m = scene.materials[material];
+        return boxes[isOpen ? std::pair(instance, material) : std::pair(m.inside, m.outside)];
+    };
+    forTrianglesInWorld(scene, isWanted,
+                        [&](const std::array<glm::dvec3, 3>& corners, double, uint32_t triangle,
+                            uint32_t instance) {
+                            Bounds& box = boxOf(instance, scene.triangles[triangle].material);
+                            for (const glm::dvec3& corner : corners)
+                                box.extend(glm::vec3(corner));
+                        });
     for (const Sphere& s : scene.spheres) {
-        if (!isOpen(s.material)) continue;
-        Bounds& box = boxes[{s.instance, s.material}];
+        if (!isWanted(scene.materials[s.material])) continue;
+        Bounds& box = boxOf(s.instance, s.material);
         box.extend(s.center - s.radius);
         box.extend(s.center + s.radius);
     }
     return boxes;
 }
 
-bool anyOverlap(const Boxes& boxes) {
-    std::vector<Bounds> sorted;
-    for (const auto& [key, box] : boxes)
-        sorted.push_back(box);
-    std::ranges::sort(sorted, {}, [](const Bounds& b) { return b.lo.x; });
-    for (size_t i = 0; i < sorted.size(); ++i)
-        for (size_t k = i + 1; k < sorted.size() && sorted[k].lo.x <= sorted[i].hi.x; ++k)
-            if (glm::all(glm::lessThanEqual(sorted[i].lo, sorted[k].hi)) &&
-                glm::all(glm::lessThanEqual(sorted[k].lo, sorted[i].hi)))
+/// Whether two boxes of volumes overlap, or one of them and one of the others.
+bool anyOverlap(const Boxes& volumes, const Boxes& others) {
+    struct Box {
+        Bounds bounds;
+        bool isOfVolume;
+    };
+    std::vector<Box> sorted;
+    for (const auto& [key, box] : volumes)
+        sorted.push_back({box, true});
+    for (const auto& [key, box] : others)
+        sorted.push_back({box, false});
+    std::ranges::sort(sorted, {}, [](const Box& b) { return b.bounds.lo.x; });
+    for (size_t i = 0; i < sorted.size(); ++i) {
+        const auto& [a, isOfVolume] = sorted[i];
+        for (size_t k = i + 1; k < sorted.size() && sorted[k].bounds.lo.x <= a.hi.x; ++k) {
+            const Bounds& b = sorted[k].bounds;
+            if ((isOfVolume || sorted[k].isOfVolume) && glm::all(glm::lessThanEqual(a.lo, b.hi)) &&
+                glm::all(glm::lessThanEqual(b.lo, a.hi)))
                 return true;
+        }
+    }
     return false;
 }
 
@@ -104,8 +105,9 @@ void orderVolumes(Scene& scene) {
     std::vector<uint32_t> volumes; // materials
     for (uint32_t i = 0; i < scene.materials.size(); ++i)
         if (scene.materials[i].outsideIsOpen) volumes.push_back(i);
-    const Boxes boxes = boxesOf(scene);
-    const bool mayOverlap = anyOverlap(boxes);
+    if (volumes.empty()) return;
+    const Boxes boxes = boxesOf(scene, true);
+    const bool mayOverlap = anyOverlap(boxes, boxesOf(scene, false));
     if (mayOverlap && volumes.size() > kMostVolumes)
         scene.report.warnings.emplace_back(
             "more than 255 kinds of volumes: where some overlap, what is behind the border that "

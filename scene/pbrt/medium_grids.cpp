@@ -4,6 +4,7 @@
 #include "scene/build/read_file.hpp"
 #include "scene/pbrt/colors.hpp"
 #include "scene/pbrt/nanovdb.hpp"
+#include "scene/pbrt/usable_value.hpp"
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -16,10 +17,6 @@ namespace stromboli::pbrt {
 namespace {
 
 constexpr uint64_t kMostValues = uint64_t(1) << 31;
-
-float usable(double value) {
-    return std::isfinite(value) && value > 0 ? float(std::min(value, 1e30)) : 0;
-}
 
 /// The size and place of the medium's grid, without values.
 template <class Value>
@@ -165,9 +162,13 @@ namespace {
 constexpr uint64_t kMostCells = uint64_t(1) << 27;
 
 /// At the middles of the density's cells; both grids are in the file's own space.
-ColorGrid glowOf(const DensityGrid& density, const DensityGrid& temperature, float scale,
-                 double offset, double perKelvin) {
+ColorGrid glowOf(const std::string& file, const DensityGrid& density,
+                 const DensityGrid& temperature, float scale, double offset, double perKelvin) {
     ColorGrid source;
+    const uint64_t cells = density.values.size();
+    build::requireMemory(file, (cells + temperature.values.size()) * sizeof(float) +
+                                   cells * sizeof(glm::vec3));
+    source.values.reserve(cells);
     source.size = density.size;
     source.toUnit = density.toUnit;
     glm::dmat4 toUnit(1.0);
@@ -215,7 +216,8 @@ void readNanoMedium(const Context& context, const Parameters& p, const glm::dmat
     const double perKelvin = p.number("temperaturescale", 1, 0, 1e9);
     if (scale > 0)
         if (const auto temperature = nanoGrid(context, p, bytes, file, "temperature")) {
-            ColorGrid source = glowOf(*density, *temperature, usable(scale), offset, perKelvin);
+            ColorGrid source =
+                glowOf(file, *density, *temperature, usable(scale), offset, perKelvin);
             float hottest = 0;
             for (const glm::vec3& value : source.values)
                 hottest = std::max(hottest, value.y);

@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/pbrt/usable_value.hpp"
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -55,7 +56,7 @@ class Bytes {
 // from one to another.
 
 struct Segment {
-    static constexpr uint64_t kBytes = 16, kGridCount = 12, kCodec = 14;
+    static constexpr uint64_t kBytes = 16, kVersion = 8, kGridCount = 12, kCodec = 14;
 };
 struct Description {
     static constexpr uint64_t kBytes = 176, kGridSize = 0, kSizeInFile = 8, kNameSize = 136;
@@ -63,7 +64,7 @@ struct Description {
 enum class Codec : uint16_t { None = 0, Zip = 1, Blosc = 2 };
 
 struct GridHeader {
-    static constexpr uint64_t kBytes = 672, kCount = 28, kSize = 32, kName = 40, kNameBytes = 256,
+    static constexpr uint64_t kBytes = 672, kVersion = 16, kSize = 32, kName = 40, kNameBytes = 256,
                               kMatrix = 384, kOffset = 528, kType = 636;
 };
 constexpr uint32_t kFloats = 1; ///< the type of a grid
@@ -97,10 +98,6 @@ Place cellOf(uint32_t number, uint32_t bits) {
     return {number >> 2 * bits & mask, number >> bits & mask, number & mask};
 }
 
-float usable(float value) {
-    return std::isfinite(value) && value > 0 ? value : 0;
-}
-
 /// A tree of floats in the bytes of its grid.
 class Tree {
   public:
@@ -126,7 +123,8 @@ class Tree {
         for (uint64_t leaf = 0; leaf < leaves.size(); leaf += Leaf::kBytes) {
             const Place low = originOf(leaves, leaf, Leaf::kBits);
             for (uint32_t i = 0; i < 1u << 3 * Leaf::kBits; ++i) {
-                const float value = usable(leaves.at<float>(leaf + Leaf::kValues + 4ull * i));
+                const float value =
+                    usable(double(leaves.at<float>(leaf + Leaf::kValues + 4ull * i)));
                 if (value > 0) take(low + cellOf(i, Leaf::kBits), int64_t(1), value);
             }
         }
@@ -176,7 +174,8 @@ class Tree {
             for (uint32_t i = 0; i < 1u << 3 * level.bits; ++i) {
                 const auto mask = all.at<uint64_t>(node + level.childMask + 8ull * (i / 64));
                 if (mask >> i % 64 & 1) continue; // its node has the values
-                const float value = usable(all.at<float>(node + level.table + kEntryBytes * i));
+                const float value =
+                    usable(double(all.at<float>(node + level.table + kEntryBytes * i)));
                 if (value > 0)
                     take(low + (cellOf(i, level.bits) << int64_t(level.childBits)),
                          int64_t(1) << level.childBits, value);
@@ -277,7 +276,16 @@ std::string typeOf(uint32_t type) {
                                                        : fmt::format("type {}", type);
 }
 
+/// place: of the version in the bytes, whose highest bits are the number of the format.
+void requireFormat(const Bytes& bytes, uint64_t place) {
+    constexpr uint32_t kFormat = 32;
+    const uint32_t found = bytes.at<uint32_t>(place) >> 21;
+    if (found != kFormat)
+        bytes.fail(fmt::format("is of format {} of NanoVDB, expected {}", found, kFormat));
+}
+
 NanoGrid gridIn(const Bytes& bytes, uint64_t mostCells) {
+    requireFormat(bytes, GridHeader::kVersion);
     const auto type = bytes.at<uint32_t>(GridHeader::kType);
     if (type != kFloats) bytes.fail(fmt::format("has a grid of {}, expected floats", typeOf(type)));
     return inCells(bytes, mostCells);
@@ -297,6 +305,7 @@ std::optional<NanoGrid> amongRawGrids(const Bytes& file, std::string_view name,
 
 std::optional<NanoGrid> inSegments(const Bytes& file, std::string_view name, uint64_t mostCells) {
     for (uint64_t from = 0; from < file.size();) {
+        requireFormat(file, from + Segment::kVersion);
         const auto count = file.at<uint16_t>(from + Segment::kGridCount);
         const auto codec = Codec(file.at<uint16_t>(from + Segment::kCodec));
         uint64_t described = from + Segment::kBytes;

@@ -159,10 +159,10 @@ void startRay(inout PathState path, inout Stack stack) {
     ++path.rayCount;
 }
 
-/// Light that the path has found: after the first bounce no more than the limit, where there is one.
+/// Light that the path has found: after the first bounce that counts no more than the limit, where there is one.
 vec3 limited(PathState path, vec3 light) {
     float share = 1.0;
     const float most = max(light.x, max(light.y, light.z));
-    if (CLAMPS_INDIRECT && path.bounce > 1u && most > INDIRECT_LIMIT) share = INDIRECT_LIMIT / most;
+    if (CLAMPS_INDIRECT && countedBounces(path.bounce, path.uncounted) > 1u && most > INDIRECT_LIMIT) share = INDIRECT_LIMIT / most;
     return CLAMPS_INDIRECT ? light * share : light;
 }

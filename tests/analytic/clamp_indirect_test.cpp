@@ -1,6 +1,6 @@
 // Light that is limited where it was scattered twice or more (--clamp-indirect): what is left of it
 // has a closed form in a furnace, where each bounce of a path brings the same light.
-#include "tests/analytic/scenes.hpp"
+#include "tests/analytic/media.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ Scene shiningBox() {
     return maker.scene;
 }
 
-/// Of the k-th bounce 2^-k arrives, from the second one on no more than the limit.
+/// The k-th bounce brings 2^-k, from the second one on no more than the limit.
 double shareLeft(uint32_t bounces, double limit) {
     double sum = 0;
     for (uint32_t k = 0; k <= bounces; ++k) {
@@ -71,6 +71,49 @@ TEST(ClampIndirect, LimitsLightSamplesAfterTheFirstBounce) {
     }
     EXPECT_GT(limited, 0u);
     EXPECT_GT(above, 0u);
+}
+
+/// A ball of radius 1 in light from everywhere, of a medium that scatters all light, under glass
+/// (ior 1: behind a border alone).
+Scene whiteBall(bool isUnderSurface, float ior) {
+    SceneMaker maker;
+    maker.add(ambient(1));
+    Medium milk = mediumOf(glm::vec3(0), glm::vec3(3), 0.3f);
+    milk.isUnderSurface = isUnderSurface;
+    const uint32_t inside = maker.add(milk);
+    Material surface = ior == 1 ? border(inside) : glass(ior);
+    surface.boundsMedia = true;
+    surface.inside = inside;
+    maker.sphere({0, 0, 0}, 1, maker.add(surface));
+    return maker.scene;
+}
+
+/// Scatterings under a surface do not count: all light is of the first bounce.
+TEST(ClampIndirect, CountsWalksUnderSurfacesAsOneBounce) {
+    for (const uint32_t branches : {1u, 3u}) {
+        RenderSettings s = smallPicture(36, 1);
+        s.estimator.branches = branches;
+        s.estimator.indirectLimit = 0.25;
+        expectMean(estimate(whiteBall(true, 1.33f), pointCamera({0, 0.3, 3}, {0, 0.3, 0}), s), 1);
+    }
+}
+
+/// In other media each scattering counts. A path brings 1, or the limit after two of them; with one
+/// bounce at most only the others are seen, and all of them together bring 1, but for the backdrop.
+TEST(ClampIndirect, CountsScatteringsInMedia) {
+    constexpr double kLimit = 0.25;
+    const Scene scene = whiteBall(false, 1);
+    const Camera camera = pointCamera({0, 0.3, 3}, {0, 0.3, 0});
+    RenderSettings s = smallPicture(128, 400);
+    s.estimator.directLight = DirectLight::Bsdf;
+    const Estimate all = estimate(scene, camera, s);
+    s.estimator.indirectLimit = kLimit;
+    const Estimate limited = estimate(scene, camera, s);
+    s.estimator.maxBounces = 1;
+    Estimate expected = estimate(scene, camera, s); // not limited: of one bounce
+    expected.mean = (1 - kLimit) * expected.mean + kLimit * all.mean;
+    expected.error += all.error;
+    expectSameMean(limited, expected);
 }
 
 } // namespace

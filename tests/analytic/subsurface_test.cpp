@@ -58,6 +58,17 @@ TEST(Subsurface, WalksDoNotCountAsBounces) {
     }
 }
 
+/// Each branch may take as many scatterings as a path without branches, though all of them together
+/// take more here: 4/3 of a radius by 1.33^2 for each.
+TEST(Subsurface, BranchesCountTheirOwnScatterings) {
+    const float rate = 96;
+    const SceneMaker b = ballOf(underSurface(mediumOf(glm::vec3(0), glm::vec3(rate))), 1.33f);
+    RenderSettings s = smallPicture(1, 1);
+    s.area.width = 2, s.area.height = 1;
+    s.estimator.branches = 512;
+    expectMean(estimate(b.scene, pointCamera({0, 0.3, 3}, {0, 0.3, 0}), s), 1);
+}
+
 /// A medium where everything counts is darker with few bounces, and the same with many.
 TEST(Subsurface, IsTheMediumWithEnoughBounces) {
     const Medium m = mediumOf(glm::vec3(0.1f, 0.3f, 1), glm::vec3(6), 0.3f);

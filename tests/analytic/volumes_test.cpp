@@ -122,6 +122,22 @@ TEST(Volumes, SurroundCamerasAndDimLights) {
         EXPECT_NEAR(seen[c] / (0.5 / kPi / 100 * exponential(depth)[c]), 1, 1e-3) << c;
 }
 
+/// Behind one in fog whose border states both sides there is fog again, whatever else the scene
+/// has; also where the fog's border is in two parts, neither of which is around it.
+TEST(Volumes, StandInFogThatStatesItsSides) {
+    Boxes boxes;
+    boxes.add(-4, 3, boxes.b.add(border(boxes.b.add(mediumOf(kThin)))));
+    boxes.add(-2, 1, boxes.b.add(openBorder(kNoMedium)));
+    boxes.expect(4.0 * glm::dvec3(kThin));
+
+    Boxes planes;
+    const uint32_t fog = planes.b.add(border(planes.b.add(mediumOf(kThin))));
+    planes.b.quad({-4, -9, -9}, {0, 0, 18}, {0, 18, 0}, fog);
+    planes.b.quad({3, -9, -9}, {0, 18, 0}, {0, 0, 18}, fog);
+    planes.add(-2, 1, planes.material(kDense));
+    planes.expect(4.0 * glm::dvec3(kThin) + 3.0 * glm::dvec3(kDense));
+}
+
 /// Where volumes do not overlap, nothing of this is in the scene.
 TEST(Volumes, StandApart) {
     Boxes boxes;

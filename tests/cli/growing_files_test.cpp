@@ -1,4 +1,5 @@
 // Checkpoints and films of renders that go on meanwhile.
+#include "host/core/system.hpp"
 #include "host/film/image_formats.hpp"
 #include "tests/cli/film_folder.hpp"
 #include "tests/cli/running_program.hpp"
@@ -17,6 +18,7 @@ namespace stromboli::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class GrowingFiles : public FilmFolder {
   protected:
@@ -43,8 +45,10 @@ TEST_F(GrowingFiles, CheckpointsOfARunningRenderAreReadWhole) {
         std::filesystem::remove(kept);
         RunningProgram program(render("a.exr", how + Strings{"-s", "1M", "--checkpoint", kept,
                                                              "--checkpoint-every", "0.01"}));
-        while (!std::filesystem::exists(kept))
+        const Stopwatch watch;
+        while (!std::filesystem::exists(kept) && !program.hasEnded() && watch.seconds() < kSoon)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        ASSERT_TRUE(std::filesystem::exists(kept)) << program.finish(kSoon).err;
         std::set<double> seen;
         double last = 0;
         // Until the render has done more work three times.
@@ -67,7 +71,9 @@ TEST_F(GrowingFiles, CheckpointsOfARunningRenderAreReadWhole) {
         EXPECT_EQ(merge("now.exr", {kept}).exitCode, 0);
         EXPECT_EQ(readExr(folder.path() / "now.exr").channels,
                   readExr(folder.path() / "a.exr").channels);
-        EXPECT_EQ(merge("now.exr", {kept}, {"--complete"}).exitCode, 1);
+        const ProgramRun whole = merge("now.exr", {kept}, {"--complete"});
+        EXPECT_EQ(whole.exitCode, 1);
+        EXPECT_THAT(whole.err, HasSubstr("the render is not finished"));
         EXPECT_EQ(merge("now.film", {kept}).exitCode, 1);
         EXPECT_EQ(merge("now.exr", {kept, kept}).exitCode, 1);
     }
@@ -76,7 +82,52 @@ TEST_F(GrowingFiles, CheckpointsOfARunningRenderAreReadWhole) {
     EXPECT_THAT(none.err, HasSubstr("or the render is finished"));
 }
 
-/// A film that somebody copies under its name is left out, with a line that says how far it is.
+/// A checkpoint that is kept at the end, too, and what is missing from the picture.
+TEST_F(GrowingFiles, FinishedRendersAreSaidToBe) {
+    const std::string kept = folder.file("kept");
+    for (const Strings& how : {Strings{"-s", "4", "--even"}, Strings{"-s", "20"},
+                               Strings{"--noise", "0.5", "-s", "1k"}}) {
+        run(render("a.exr", how + Strings{"-q", "--checkpoint", kept}));
+        const ProgramRun merged = merge("now.exr", {kept}, {"--complete"});
+        EXPECT_EQ(merged.exitCode, 0) << merged.err;
+        EXPECT_THAT(merged.err, Not(HasSubstr("not finished")));
+        EXPECT_THAT(merged.err, Not(HasSubstr("behind objects")));
+    }
+    for (const Strings& how :
+         {Strings{"--transparent"}, Strings{"--background", "1"}, Strings{"--shadow-catcher"}}) {
+        run(render("a.exr", how + Strings{"-q", "-s", "2", "--checkpoint", kept}));
+        EXPECT_THAT(merge("now.exr", {kept}).err, HasSubstr("what is seen behind objects: alpha, "
+                                                            "--background and shadows"));
+    }
+}
+
+/// The checkpoints of bands, under the name that the picture's would have.
+TEST_F(GrowingFiles, BandsAreOnePicture) {
+    const std::string kept = folder.file("kept");
+    run({"render", scene, "-o", folder.file("a.exr"), "-r", "120", "90", "-s", "4", "--even", "-q",
+         "--film-memory", "1", "--checkpoint", kept});
+    ASSERT_FALSE(std::filesystem::exists(kept));
+    const ProgramRun all = merge("now.exr", {kept}, {"--complete"});
+    ASSERT_EQ(all.exitCode, 0) << all.err;
+    EXPECT_EQ(readExr(folder.path() / "now.exr").channels,
+              readExr(folder.path() / "a.exr").channels);
+    std::set<std::string> bands;
+    for (const std::string& name : folder.entries())
+        if (name.starts_with("kept.band")) bands.insert(name);
+    ASSERT_GT(bands.size(), 1u);
+    std::filesystem::remove(folder.path() / *bands.rbegin());
+    const ProgramRun some = merge("now.exr", {kept});
+    EXPECT_EQ(some.exitCode, 0) << some.err;
+    EXPECT_THAT(some.err, HasSubstr("the render is not finished"));
+    const FloatImage picture = readExr(folder.path() / "now.exr");
+    EXPECT_EQ(picture.height, 90u);
+    EXPECT_EQ(picture.channels.at("G").back(), 0);
+    EXPECT_EQ(merge("now.exr", {kept}, {"--complete"}).exitCode, 1);
+    EXPECT_EQ(merge("now.exr", {kept, kept}).exitCode, 1);
+}
+
+/// A film that somebody copies under its name is left out, with a line that says how far it is and
+/// an exit code for scripts: it may have been cut short for good.
 TEST_F(GrowingFiles, FilmsThatAreHalfThereAreLeftOut) {
     for (const char* share : {"1/2", "2/2"})
         run(render(std::string("part") + share[0] + ".film",
@@ -92,8 +143,9 @@ TEST_F(GrowingFiles, FilmsThatAreHalfThereAreLeftOut) {
          {size_t(0), size_t(10), size_t(60), whole.size() / 2, whole.size() - 1}) {
         std::ofstream(second, std::ios::binary) << whole.substr(0, size);
         const ProgramRun run = merge("now.exr", {second, first});
-        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_EQ(run.exitCode, 6) << run.err;
         EXPECT_THAT(run.err, HasSubstr("part2.film is still being written"));
+        EXPECT_THAT(run.err, HasSubstr("now.exr lacks 1 of 2 films"));
         EXPECT_TRUE(bytesOf("now.exr") == bytesOf("first.exr")) << size;
         EXPECT_EQ(merge("now.exr", {first, second}, {"--complete"}).exitCode, 1);
         EXPECT_EQ(merge("now.exr", {second}).exitCode, 1);
@@ -131,6 +183,13 @@ TEST_F(GrowingFiles, AnotherLimitOfLightIsAnotherRender) {
         return sum;
     };
     EXPECT_LT(sumOf("c.exr"), 0.9 * sumOf("b.exr"));
+    run(render("c.film",
+               {"-q", "-s", "2", "--block", "2", "--clamp-indirect", "1", "--share", "1/1"}));
+    EXPECT_THAT(merge("d.exr", {folder.file("c.film")}).err, HasSubstr("the picture is biased"));
+    EXPECT_THAT(
+        stromboli(render("d.exr", {"-s", "1", "--clamp-indirect", "1", "--integrator", "normals"}))
+            .err,
+        HasSubstr("follows no light: ignored: --clamp-indirect"));
 }
 
 } // namespace

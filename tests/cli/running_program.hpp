@@ -32,6 +32,7 @@ class RunningProgram {
     RunningProgram& operator=(const RunningProgram&) = delete;
 
     void send(int signal) const;
+    bool hasEnded();
     /// Takes in what it says until standard error holds `text`; false if that takes longer than so
     /// many seconds.
     bool says(const std::string& text, double seconds);
@@ -40,7 +41,6 @@ class RunningProgram {
 
   private:
     void takeIn();
-    bool hasEnded();
 
     ScratchFolder folder_;
     pid_t process_ = -1;

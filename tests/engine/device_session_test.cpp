@@ -208,7 +208,19 @@ TEST(DeviceSession, ATurnedOrOtherEnvironmentBuildsNothingAndHasTheBytesOfASessi
     session.run();
     EXPECT_FALSE(sameBytes(session.film(), before));
     EXPECT_TRUE(sameBytes(session.film(), alone({}, loadScene(source).scene, request)));
+    // Together with a material, and that back together with another sky.
+    source.environment.sun = SunRequest{250, 40};
+    const auto edited = std::make_shared<Scene>(*loadScene(source).scene);
+    edited->materials[0].albedo *= 0.5f;
+    edited->materials[0].principled.baseColor *= 0.5f;
+    SceneChange both;
+    both.rotation = rotationOf(source.environment);
+    both.materials[0] = edited->materials[0];
+    session.change(both);
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, edited, request)));
     source.environment.sun = SunRequest{20, 15};
+    turn.materials[0] = scene->materials[0];
     turn.environment = std::make_shared<Environment>(environmentOf(*source.environment.sun));
     session.change(turn);
     session.run();

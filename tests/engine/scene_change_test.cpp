@@ -246,6 +246,11 @@ TEST(SceneRequests, TurnTheEnvironmentOfTheFile) {
     EXPECT_FLOAT_EQ(turned.scene->environment->rotation - turned.rotationOfFile, 0.523598776f);
     request.source = "cornell_boxes";
     EXPECT_THROW(loadScene(request), UsageError); // which has none
+    std::ofstream(folder / "grey.xml") << R"(<scene version="0.6.0">
+        <emitter type="constant"/><shape type="sphere"/></scene>)";
+    request.source = (folder / "grey.xml").string();
+    EXPECT_THAT(loadScene(request).scene->report.ignored,
+                testing::Contains(testing::HasSubstr("same all around")));
 }
 
 } // namespace

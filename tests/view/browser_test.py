@@ -136,6 +136,9 @@ def light_and_scene(browser, program):
         page.wait(DONE)
         check(page.evaluate("!at('light-tools').hidden && at('turn').parentElement.hidden && at('scene-tools').hidden"),
               "a sun has two sliders")
+        page.evaluate("stromboli.frame = { ...stromboli.frame, state: 'loading', paused: true, biased: true }, describe(), 0")
+        check(page.evaluate("at('pause').getAttribute('aria-pressed') === 'true' && "
+                            "at('status').textContent.includes('biased: ')"), "a pause shows while a scene is loaded")
         choose(page, "elevation", 12.34)
         page.wait(f"{DONE} && stromboli.frame.sun[1] === 12.3 && stromboli.frame.sun[0] === 90")
         choose(page, "azimuth", 270)

@@ -67,6 +67,23 @@ TEST(ServedView, ShowsACoarsePictureFirst) {
     EXPECT_GT(client.finished().number("epoch"), 1);
 }
 
+/// How long nobody looks says nothing of how long a picture takes.
+TEST(ServedView, NobodyLookingMakesPicturesNoCoarser) {
+    const ServedView view(smallPicture(16));
+    const Client client = view.client();
+    client.post("/steer?paused=1");
+    client.post(steerTo({0.4, 0.6, 1.1}, {0, 0.5, 0}, 35));
+    std::this_thread::sleep_for(std::chrono::milliseconds(900));
+    client.post(steerTo({0.4, 0.6, 1.2}, {0, 0.5, 0}, 35));
+    std::this_thread::sleep_for(std::chrono::milliseconds(900));
+    client.post(steerTo({0.4, 0.6, 1.3}, {0, 0.5, 0}, 35));
+    ReadFrame frame = client.frame(0); // of steps that came together there is the last alone
+    while (nlohmann::json::parse(frame.text).at("pose").at("from").at(2) != 1.3)
+        frame = client.frame(uint64_t(frame.number("number")));
+    EXPECT_TRUE(frame.says("coarse", "true"));
+    EXPECT_GE(frame.number("width"), 24 / 4);
+}
+
 TEST(ServedView, AMovedCameraHasThePictureOfARenderWithoutBuildingAnything) {
     RenderRequest request = smallPicture(8);
     const ServedView view(request);
@@ -150,6 +167,7 @@ TEST(ServedView, PausesAndGoesOn) {
     EXPECT_EQ(client.post("/steer?paused=1").status, 204);
     while (!frame.says("state", "\"paused\""))
         frame = client.frame(uint64_t(frame.number("number")));
+    EXPECT_TRUE(frame.says("paused", "true"));
     const double samples = client.frame(0).number("samples");
     client.get("/probe?x=0&y=0"); // the render answers, and takes none
     EXPECT_EQ(client.frame(0).number("samples"), samples);

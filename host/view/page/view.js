@@ -129,63 +129,6 @@ function fit() {
 }
 window.addEventListener("resize", fit);
 
-// --- The reference -----------------------------------------------------------------------------------------------------
-
-const isSameSize = () => page.frame.width === page.reference?.text.width && page.frame.height === page.reference?.text.height;
-const isDifference = () => page.compared === "difference" && isRadiance() && isSameSize();
-
-// It lies over the picture, up to the divider, and is developed anew when the exposure or the view is another.
-let developed = "";
-function drawReference() {
-  const { reference, compared, divider } = page, other = at("other");
-  const isThere = reference && isRadiance() && (compared === "split" || compared === "all");
-  other.hidden = !isThere;
-  at("divider").hidden = !isThere || compared === "all";
-  at("divider").setAttribute("aria-valuenow", String(Math.round(100 * divider)));
-  if (!isThere) return;
-  other.style.clipPath = `inset(0 ${compared === "all" ? 0 : 100 * (1 - divider)}% 0 0)`;
-  const how = `${page.view} ${exposureNow()}`;
-  if (how === developed) return;
-  developed = how;
-  const { width, height, exponent } = reference.text;
-  other.width = width, other.height = height;
-  const to = other.getContext("2d"), image = to.createImageData(width, height);
-  developRadiance(reference.halves, exponent, page.view, exposureNow(), image.data);
-  to.putImageData(image, 0, 0);
-}
-
-async function fetchReference() {
-  const response = await ask("/reference", {});
-  if (!response.ok) return say(await response.text());
-  page.reference = decode(await response.arrayBuffer());
-  at("reference-tools").hidden = false;
-  draw();
-}
-
-function divideAt(share) {
-  page.divider = Math.min(Math.max(share, 0), 1);
-  drawReference(), fit();
-}
-at("divider").addEventListener("pointerdown", (event) => at("divider").setPointerCapture(event.pointerId));
-at("divider").addEventListener("pointermove", (event) => {
-  const box = canvas.getBoundingClientRect();
-  if (at("divider").hasPointerCapture(event.pointerId)) divideAt((event.clientX - box.left) / box.width);
-});
-at("divider").addEventListener("keydown", (event) => {
-  const by = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
-  if (by) divideAt(page.divider + by), event.stopPropagation();
-});
-at("compared").addEventListener("change", () => { page.compared = at("compared").value, draw(); });
-
-const short = (v) => (v === null ? "none" : String(Number(v.toPrecision(4))));
-function describeDifference() {
-  const d = page.frame.difference;
-  if (!d) return at("difference").textContent = isRadiance() ? "the coarse picture is not compared" : "";
-  at("difference").textContent = [`relMSE ${short(d.relMse)}`, `MSE ${short(d.mse)}`,
-    `bias ${d.bias === null ? "unknown" : percent(d.bias)}`, `PSNR ${d.psnr === null ? "without end" : `${short(d.psnr)} dB`}`,
-    `SSIM ${short(d.ssim)}`].join("\n");
-}
-
 // --- What is said --------------------------------------------------------------------------------------------------------
 
 const percent = (share) => `${Number((100 * share).toPrecision(2))} %`;
@@ -201,12 +144,13 @@ function describe() {
       : "noise not known yet",
     `${Number((f.raysPerSecond / 1e6).toPrecision(3))} million rays/s, ${f.seconds.toFixed(1)} s`,
     f.device,
+    ...(f.biased ? ["biased: --clamp-indirect removes light"] : []),
   ].join("\n");
   if (at("camera").options.length !== f.cameras.length + 1) {
     at("camera").replaceChildren(new Option("(choose)", ""), ...f.cameras.map((name, i) => new Option(name, i)));
     at("camera").parentElement.hidden = f.cameras.length === 0;
   }
-  at("pause").setAttribute("aria-pressed", String(f.state === "paused"));
+  at("pause").setAttribute("aria-pressed", String(f.paused));
   describeScene();
   if (page.reference) describeDifference();
   showTools();
@@ -251,37 +195,6 @@ function showTools() {
 }
 
 // --- The camera ------------------------------------------------------------------------------------------------------
-
-const plus = (a, b, s = 1) => a.map((v, i) => v + s * b[i]);
-const times = (a, s) => a.map((v) => v * s);
-const length = (a) => Math.hypot(...a);
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-// Steeper views have another up (lookingAt() of scene/camera): the picture would jump by a turn.
-const steepest = Math.acos(0.899);
-
-function axes(pose) {
-  const back = times(plus(pose.from, pose.at, -1), 1 / length(plus(pose.from, pose.at, -1)));
-  const up = Math.abs(back[1]) < 0.9 ? [0, 1, 0] : [0, 0, 1];
-  const right = times(cross(up, back), 1 / length(cross(up, back)));
-  return { back, right, up: cross(back, right) };
-}
-
-function orbited(pose, turn, rise) {
-  const d = plus(pose.from, pose.at, -1), r = length(d);
-  const theta = Math.atan2(d[0], d[2]) + turn;
-  const phi = Math.min(Math.max(Math.acos(d[1] / r) + rise, steepest), Math.PI - steepest);
-  const to = [Math.sin(phi) * Math.sin(theta), Math.cos(phi), Math.sin(phi) * Math.cos(theta)];
-  return { ...pose, from: plus(pose.at, to, r) };
-}
-
-function shifted(pose, x, y, z = 0) { // in heights of the picture, at the distance of what is looked at
-  const { back, right, up } = axes(pose);
-  const unit = 2 * Math.tan(pose.fov * Math.PI / 360) * length(plus(pose.from, pose.at, -1));
-  const by = plus(plus(times(right, x * unit), up, y * unit), back, -z * unit);
-  return { ...pose, from: plus(pose.from, by), at: plus(pose.at, by) };
-}
-
-const dollied = (pose, factor) => ({ ...pose, from: plus(pose.at, plus(pose.from, pose.at, -1), factor) });
 
 function moveTo(pose, moving) {
   if (settings.readOnly || !pose) return;

@@ -4,6 +4,7 @@
 #include "source_dir.h"
 #include "tests/scene/pbrt/pbrt_text.hpp"
 
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <cstring>
@@ -79,6 +80,12 @@ TEST(NanoGrids, DamagedFilesAreRefused) {
     std::string blosc = good;
     blosc[14] = 2;
     EXPECT_THAT(refusal(blosc), HasSubstr("packed by Blosc"));
+    for (const uint32_t format : {31u, 33u}) {
+        std::string other = good;
+        const uint32_t version = format << 21 | 4u << 10;
+        std::memcpy(other.data() + 8, &version, sizeof version);
+        EXPECT_THAT(refusal(other), HasSubstr(fmt::format("is of format {} of", format)));
+    }
     std::string damaged = good;
     damaged[400] = char(damaged[400] + 1);
     EXPECT_THAT(refusal(damaged), HasSubstr("damaged"));
@@ -113,6 +120,8 @@ TEST(NanoGrids, NeedNotBePacked) {
     std::string alone = raw.substr(16 + 176 + sizeof "density");
     alone[7] = '1';
     EXPECT_EQ(readNanoGrid(alone, "a", "density", 1 << 20)->grid.values, read->grid.values);
+    alone[19] = char(33 << 5 >> 8), alone[18] = char(33 << 5); // its own version
+    EXPECT_THROW(readNanoGrid(alone, "a", "density", 1 << 20), SceneError);
 }
 
 /// Whatever stands in a file, it is read or refused, and never beyond its end.
