@@ -2,6 +2,7 @@
 
 #include "host/bvh/cpu_traversal.hpp"
 #include "host/kernel/detail_rows.hpp"
+#include "host/kernel/medium_rows.hpp"
 #include "scene/model/mixture.hpp"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/medium_types.h"
@@ -145,6 +146,9 @@ void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
         g.closures.add(closures);
     g.lights = packLights(scene, g.bvh.placeOf, lights,
                           appendPictures(g.materials, g.details.ofLights), std::move(environment));
+    const LightFoci foci = lightFoci(scene);
+    appendFoci(g.materials, scene.media, g.mediumRow, foci);
+    g.foci = uint32_t(foci.near.size());
 }
 
 } // namespace

@@ -33,6 +33,7 @@ struct GpuScene {
     bool hasIridescence = false;             ///< a primitive's material has a thin film
     uint32_t media = 0;                      ///< MEDIA_ bits
     std::vector<uint32_t> mediumRow;         ///< by medium of the scene: its first row
+    uint32_t foci = 0;                       ///< lamps about which distances in media are drawn
     float gapWidth = 0;                      ///< gapWidth()
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals

@@ -190,6 +190,19 @@ MediumRows appendMedia(std::vector<Row>& rows, std::span<const Medium> media, bo
     return packed;
 }
 
+void appendFoci(std::vector<Row>& rows, std::span<const Medium> media,
+                std::span<const uint32_t> mediumRow, const LightFoci& foci) {
+    if (foci.near.empty()) return;
+    const auto first = uint32_t(rows.size());
+    for (const LightFocus& f : foci.near)
+        appendRows(rows, gpu::LightFocus{glm::vec3(f.point), float(f.radius), float(f.intensity),
+                                         float(f.radiance), 0, 0});
+    for (size_t i = 0; i < media.size(); ++i)
+        if (!media[i].varies() && !media[i].isUnderSurface)
+            rows[mediumRow[i] + gpu::MEDIUM_FOCI_ROW] =
+                std::bit_cast<Row>(gpu::MediumFoci{first, float(foci.others), 0, 0});
+}
+
 void nameBorders(std::vector<Row>& rows, std::span<const Material> materials,
                  std::span<const uint32_t> materialRow, std::span<const uint32_t> mediumRow) {
     const auto rowOf = [&](uint32_t medium) {

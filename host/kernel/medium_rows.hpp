@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/kernel/rows.hpp"
+#include "scene/model/light_foci.hpp"
 #include "scene/model/material.hpp"
 #include "scene/model/medium.hpp"
 
@@ -24,6 +25,11 @@ MediumRows appendMedia(std::vector<Row>& rows, std::span<const Medium> media, bo
 /// materialRow: the first row of each.
 void nameBorders(std::vector<Row>& rows, std::span<const Material> materials,
                  std::span<const uint32_t> materialRow, std::span<const uint32_t> mediumRow);
+
+/// Appends the lamps about which distances are drawn, and names them in the media that these are
+/// for: the same everywhere, not under surfaces. mediumRow: the first row of each.
+void appendFoci(std::vector<Row>& rows, std::span<const Medium> media,
+                std::span<const uint32_t> mediumRow, const LightFoci& foci);
 
 /// Upper bounds of a grid's interpolated density in equal blocks of the unit cube, x changing
 /// fastest.

@@ -58,7 +58,7 @@ World::World(const Scene& s, const ShadingConventions& c)
                                               m.isHiddenFromCamera;
                                    })),
       mediaShine(std::ranges::any_of(s.media, &Medium::emits)),
-      hasWalks(std::ranges::any_of(s.media, &Medium::isUnderSurface)) {
+      hasWalks(std::ranges::any_of(s.media, &Medium::isUnderSurface)), foci(lightFoci(s)) {
     for (const Medium& m : s.media)
         mostExtinction.push_back(reference::mostExtinction(m));
 }
@@ -196,8 +196,10 @@ bool PathSample::travel(const Ray& ray, Skip skip, bool fromCamera) {
 bool PathSample::scattersInMedium(const Ray& ray, double from, double to) {
     if (!filling_.medium) return false;
     const auto number = size_t(filling_.medium - world_.scene.media.data());
-    const MediumEvent event = flyThrough(*filling_.medium, world_.mostExtinction[number], ray, from,
-                                         to, throughput_, passes_);
+    const bool samples = samplesLights(settings_.directLight);
+    const MediumEvent event =
+        flyThrough(*filling_.medium, world_.mostExtinction[number], ray, from, to, throughput_,
+                   samples ? &world_.foci : nullptr, passes_);
     if (scatterings_ >= settings_.minBounce)
         radiance_ += limited(throughput_ * event.shone, scatterings_);
     throughput_ *= event.weight;

@@ -7,6 +7,7 @@
 #include "host/render/estimator.hpp"
 #include "host/render/layers.hpp"
 #include "host/render/recorded_path.hpp"
+#include "scene/model/light_foci.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -26,6 +27,7 @@ struct World {
     bool mediaShine; ///< a medium emits light
     bool hasWalks;   ///< a medium lies under a surface
     std::vector<double> mostExtinction; ///< by medium of the scene (medium.hpp)
+    LightFoci foci;                     ///< about which distances in media are drawn
 
     World(const Scene& s, const ShadingConventions& c);
 };

@@ -1,5 +1,7 @@
 #include "host/reference/medium.hpp"
 
+#include "host/reference/near_lights.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -100,7 +102,7 @@ double mostExtinction(const Medium& m) {
 }
 
 MediumEvent flyThrough(const Medium& m, double most, const Ray& ray, double from, double to,
-                       const glm::dvec3& carried, RandomStream& random) {
+                       const glm::dvec3& carried, const LightFoci* foci, RandomStream& random) {
     if (m.varies()) return trackGrid(m, most, ray, from, to, carried, random);
     MediumEvent event;
     const glm::dvec3 extinction(m.extinction()), scattering(m.scattering);
@@ -113,14 +115,25 @@ MediumEvent flyThrough(const Medium& m, double most, const Ray& ray, double from
                                                               : 0.0);
     if (!m.scatters()) return event;
     const glm::dvec3 share = carried / (carried.x + carried.y + carried.z);
-    const double which = random.next(), depth = -std::log(1 - random.next());
-    const int channel = which < share.x ? 0 : which < share.x + share.y ? 1 : 2;
-    const double distance = extinction[channel] > 0 ? depth / extinction[channel] : kInfinity;
-    event.scatters = distance < length;
+    const NearLights near =
+        foci && !m.isUnderSurface ? NearLights(*foci, m, ray, from, to, share) : NearLights();
+    const double byExtinction = 1 - near.share();
+    double distance = 0;
+    if (near.share() > 0 && random.next() >= byExtinction) {
+        const double which = random.next();
+        distance = near.draw(which, random.next());
+        event.scatters = true;
+    } else {
+        const double which = random.next(), depth = -std::log(1 - random.next());
+        const int channel = which < share.x ? 0 : which < share.x + share.y ? 1 : 2;
+        distance = extinction[channel] > 0 ? depth / extinction[channel] : kInfinity;
+        event.scatters = distance < length;
+    }
     const glm::dvec3 left = exponential(extinction, std::min(distance, length));
     event.distance = from + distance;
-    event.weight = event.scatters ? scattering * left / glm::dot(share, extinction * left)
-                                  : left / glm::dot(share, left);
+    double density = byExtinction * glm::dot(share, event.scatters ? extinction * left : left);
+    if (event.scatters && near.share() > 0) density += near.share() * near.density(distance);
+    event.weight = (event.scatters ? scattering * left : left) / density;
     return event;
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/reference/bvh.hpp"
 #include "host/reference/sampling.hpp"
+#include "scene/model/light_foci.hpp"
 #include "scene/model/medium.hpp"
 
 namespace stromboli::reference {
@@ -21,8 +22,10 @@ struct MediumEvent {
 double mostExtinction(const Medium& medium);
 
 /// carried: what the path's channels carry, by which one of them is drawn. most: mostExtinction().
+/// foci: the lamps about which distances are drawn in a medium that is the same everywhere; null:
+/// none.
 MediumEvent flyThrough(const Medium& medium, double most, const Ray& ray, double from, double to,
-                       const glm::dvec3& carried, RandomStream& random);
+                       const glm::dvec3& carried, const LightFoci* foci, RandomStream& random);
 
 /// The share of light that is left between two distances, the second of which may be infinite. No
 /// estimate: of a grid it is the exponential of an integral that is exact but for rounding.

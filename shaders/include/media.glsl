@@ -81,19 +81,35 @@ struct MediumResult {
     float distance;  ///< from the stretch's beginning to where it scatters
 };
 
-/// Free flight by one channel of three, which is drawn by what the channels carry; the density is that of all (Miller,
-/// Georgiev and Jarosz 2019, for a single collision). A medium without scattering has a path's whole weight left.
-MediumResult flyFreely(MediumBody m, vec3 carried, float length_, vec4 u) {
+#include "include/near_lights.glsl"
+
+/// Free flight by one channel of three, which is drawn by what the channels carry, or to a distance that is drawn about
+/// lamps; the density is that of all (Miller, Georgiev and Jarosz 2019, for a single collision). A medium without
+/// scattering has a path's whole weight left. medium: the first row of `m`. The stretch begins at the ray's tMin.
+MediumResult flyFreely(MediumBody m, uint medium, vec3 carried, Traversal ray, float length_, vec4 u) {
     MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, false, 0.0);
     if (mediaDo(MEDIA_SHINE)) r.shone = m.emission * integratedTransmittance(m.extinction, length_);
-    const vec3 share = carried / max(carried.x + carried.y + carried.z, TINY);
-    const float rate = u.x < share.x ? m.extinction.x : (u.x < share.x + share.y ? m.extinction.y : m.extinction.z);
-    r.distance = rate > 0.0 ? -log(1.0 - u.y) / rate : INFINITE_DISTANCE;
     const bool mayScatter = mediaDo(MEDIA_SCATTER) && largestComponent(m.albedo) > 0.0;
+    const vec3 share = carried / max(carried.x + carried.y + carried.z, TINY);
+    NearDraw near = NO_NEAR_DRAW;
+    float which = u.x;
+    if (FOCI != 0u) {
+        near = drawNearLamps(medium, dot(share, m.extinction), dot(share, m.albedo * m.extinction), ray, length_, u.zw);
+        which = (u.x - near.share) / (1.0 - near.share);
+    }
+    const float rate = which < share.x ? m.extinction.x : (which < share.x + share.y ? m.extinction.y : m.extinction.z);
+    r.distance = rate > 0.0 ? -log(1.0 - u.y) / rate : INFINITE_DISTANCE;
     r.scatters = mayScatter && r.distance < length_;
+    if (FOCI != 0u && which < 0.0) {
+        r.distance = near.distance;
+        r.scatters = true;
+    }
     const vec3 left = exp(-m.extinction * min(r.distance, length_));
     const vec3 density = r.scatters ? m.extinction * left : left;
-    if (mayScatter) r.weight = (r.scatters ? m.albedo * density : density) / max(dot(share, density), TINY);
+    float drawn = dot(share, density);
+    if (FOCI != 0u)
+        drawn = (1.0 - near.share) * drawn + (r.scatters ? near.share * nearDensity(medium, near, ray, r.distance) : 0.0);
+    if (mayScatter) r.weight = (r.scatters ? m.albedo * density : density) / max(drawn, TINY);
     return r;
 }
 
@@ -130,7 +146,7 @@ bool goThroughMedium(const Given given, inout PathState path) {
         const vec3 carried = isPath ? path.throughput : path.directValue;
         MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, false, 0.0);
         const bool varies = mediaDo(MEDIA_VARY) && m.grid != 0u;
-        if (isPath && !varies && !SEES) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
+        if (isPath && !varies && !SEES) r = flyFreely(m, here, carried, path.ray, length_, mediumNumbers(words, 0u));
         if (varies) r = trackGrid(m, here, path.ray, carried, isPath && !SEES, words);
         if (SEES) path.seen.albedo.xyz += path.throughput * (1.0 - r.weight) * m.albedo;
         if (mediaDo(MEDIA_SHINE) && isPath && countedBounces(path.bounce, path.uncounted) >= given.frame.minBounce) path.radiance += limited(path, path.throughput * r.shone);

@@ -161,9 +161,11 @@
     F(59, bool, CLAMPS_INDIRECT, false, shades && settings.indirectLimit > 0, own, \
       "limited light", flag, "light that is limited where it was scattered twice or more") \
     F(60, float, INDIRECT_LIMIT, 1.0, f[SPEC_CLAMPS_INDIRECT] ? settings.indirectLimit : 0, own, \
-      "limit of that light", number, "the most that it brings at a time, in its brightest channel")
+      "limit of that light", number, "the most that it brings at a time, in its brightest channel") \
+    F(61, uint, FOCI, 0u, shades && samplesLights(settings.directLight) ? scene.foci : 0, own, \
+      "lamps near rays in media", count(""), "distances in media that are drawn about lamps")
 
-#define SPEC_COUNT 61
+#define SPEC_COUNT 62
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -84,6 +84,25 @@ SHARED_CONST uint TINT_EXTINCTION = 1u;
 /// Scattering has factors of the medium's extinction; else shares of that at the place.
 SHARED_CONST uint TINT_SCATTERING_IS_FACTOR = 2u;
 
+/// The lamps about which distances are drawn in a medium that is the same everywhere (scene/model/light_foci.hpp), as
+/// many as the feature FOCI says.
+struct MediumFoci {
+    uint first;   ///< row of the first LightFocus; 0: there is none
+    float others; ///< radiance that other lights give to surfaces
+    uint unused0, unused1;
+};
+SHARED_ROWS(MediumFoci, 1);
+SHARED_CONST uint MEDIUM_FOCI_ROW = 6u; ///< of a medium, its header counted
+
+struct LightFocus {
+    vec3 point;
+    float radius;    ///< of a sphere that holds the lamp; > 0
+    float intensity; ///< luminance of the mean over all directions
+    float radiance;  ///< luminance of what its surface sends out
+    uint unused0, unused1;
+};
+SHARED_ROWS(LightFocus, 2);
+
 /// A grid of colours, a row for each cell, x changing fastest.
 struct ColorGridHeader {
     vec4 toUnit0, toUnit1, toUnit2; ///< rows of the matrix from the world to the unit cube

@@ -5,6 +5,7 @@
 #include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
+#include "shaders/shared/medium_types.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 
@@ -88,6 +89,62 @@ TEST_F(SchedulerTest, PlacementsAreTheSame) {
 
 TEST_F(SchedulerTest, MediaAreTheSame) {
     expectSamePictures(sheetsBeforeTheSky());
+}
+
+/// Light walks under a surface of wax.
+Scene waxInTheSky() {
+    scenes::SceneMaker b;
+    Medium wax = scenes::mediumOf(glm::vec3(0.1f, 0.3f, 1), glm::vec3(6), 0.3f);
+    wax.isUnderSurface = true;
+    Material surface = scenes::glass(1.4f);
+    surface.boundsMedia = true;
+    surface.inside = b.add(wax);
+    b.sphere({0, 0, 0}, 1, b.add(surface));
+    b.add(scenes::ambient(1));
+    return b.scene;
+}
+
+/// Three volumes as glTF has them, which do not say what is outside, within one another.
+Scene volumesThatOverlap() {
+    scenes::SceneMaker b;
+    for (const float size : {1.0f, 0.75f, 0.5f}) {
+        Material volume = scenes::glass(1.2f);
+        volume.boundsMedia = volume.outsideIsOpen = true;
+        volume.inside = b.add(scenes::mediumOf(glm::vec3(size, 0.25f, 0), glm::vec3(1, size, 2)));
+        b.box({-size, -size, -1}, {1, 1, size}, b.add(volume));
+    }
+    b.add(scenes::ambient(1));
+    resolveMedia(b.scene);
+    return b.scene;
+}
+
+/// Fog on a floor, whose border lies in the floor's plane, and a small lamp in it, about which
+/// distances are drawn.
+Scene fogOnAFloor() {
+    scenes::SceneMaker b;
+    b.quad({-3, -3, 0.3f}, {6, 0.1f, 0}, {-0.1f, 6, 0}, b.add(scenes::diffuse(0.5f)));
+    b.box({-2, -2, 0.3f}, {2, 2, 1.3f},
+          b.add(scenes::border(b.add(scenes::mediumOf(glm::vec3(0.01f), glm::vec3(0.1f))))));
+    b.sphere({0.2f, 0.1f, 0.7f}, 0.02f, b.add(scenes::emissive(50)));
+    return b.scene;
+}
+
+TEST_F(SchedulerTest, WalksUnderSurfacesAreTheSame) {
+    settings_.estimator.maxBounces = 3;
+    expectSamePictures(waxInTheSky());
+}
+
+TEST_F(SchedulerTest, VolumesThatOverlapAreTheSame) {
+    const Scene scene = volumesThatOverlap();
+    const GpuScene packed = packScene(scene, buildWideBvh(scene));
+    EXPECT_NE(packed.media & gpu::MEDIA_OVERLAP, 0u);
+    expectSamePictures(scene);
+}
+
+TEST_F(SchedulerTest, BordersInPlanesOfSurfacesAreTheSame) {
+    const Scene scene = fogOnAFloor();
+    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).foci, 1u);
+    expectSamePictures(scene);
 }
 
 /// Compiled quickly (QUICK_KERNELS): these kernels take longer to compile than all others of this

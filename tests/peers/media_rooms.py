@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""media_rooms.py FOLDER: writes three scenes with media for against_mitsuba.py, in Mitsuba 3's syntax.
+"""media_rooms.py FOLDER: writes four scenes with media for against_mitsuba.py, in Mitsuba 3's syntax.
 
-fog: a lamp in a room full of fog. milk: a ball of a dense coloured medium, whose phase function is a sum, under a lamp
+fog: a lamp in a room full of fog. lamp: a bulb in a room full of thin fog. milk: a ball of a dense coloured medium, whose phase function is a sum, under a lamp
 and a sky. smoke: a grid of densities with an albedo of varying colours. Each is FOLDER/NAME/scene.xml.
 """
 import math
@@ -82,6 +82,15 @@ def main():
     )
     cube = '<shape type="cube"><transform name="to_world"><scale value="1.95"/></transform><bsdf type="null"/>'
     write(folder, "fog", room() + lamp(0.25, 1.5, "40") + cube + fog + "</shape>")
+    haze = (
+        '<medium name="interior" type="homogeneous"><rgb name="albedo" value="0.9, 0.9, 0.9"/>'
+        '<float name="sigma_t" value="0.04"/><phase type="hg"><float name="g" value="0.3"/></phase></medium>'
+    )
+    bulb = (
+        '<shape type="sphere"><point name="center" x="0.3" y="0.2" z="0.4"/><float name="radius" value="0.05"/>'
+        '<emitter type="area"><rgb name="radiance" value="900, 800, 600"/></emitter></shape>'
+    )
+    write(folder, "lamp", room() + bulb + cube + haze + "</shape>")
     milk = (
         '<medium name="interior" type="homogeneous"><rgb name="albedo" value="0.99, 0.97, 0.9"/>'
         '<rgb name="sigma_t" value="0.5, 0.7, 1"/><float name="scale" value="7"/><phase type="blendphase"><float name="weight" value="0.3"/>'

@@ -129,7 +129,8 @@ std::string sourceWithout(const Words& values) {
     std::string source = sourceOf("pathtrace.comp");
     for (const Feature& f : featureTable()) {
         const bool isFlag = f.shown.kind == Kind::Flag;
-        if (values[f.constant] != 0 || (!isFlag && f.shown.kind != Kind::Bits)) continue;
+        const bool hasSwitch = isFlag || f.shown.kind == Kind::Bits || f.constant == SPEC_FOCI;
+        if (values[f.constant] != 0 || !hasSwitch) continue;
         const std::regex declaration(
             fmt::format("layout\\(constant_id = {}\\) ?const (\\w+) {} = [^;]*;",
                         uint32_t(f.constant), f.name));
