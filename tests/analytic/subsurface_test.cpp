@@ -61,7 +61,7 @@ TEST(Subsurface, WalksDoNotCountAsBounces) {
 /// Each branch may take as many scatterings as a path without branches, though all of them together
 /// take more here: 4/3 of a radius by 1.33^2 for each.
 TEST(Subsurface, BranchesCountTheirOwnScatterings) {
-    const float rate = 96;
+    const float rate = 400;
     const SceneMaker b = ballOf(underSurface(mediumOf(glm::vec3(0), glm::vec3(rate))), 1.33f);
     RenderSettings s = smallPicture(1, 1);
     s.area.width = 2, s.area.height = 1;

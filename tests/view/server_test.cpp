@@ -78,7 +78,7 @@ TEST(ServedView, NobodyLookingMakesPicturesNoCoarser) {
     std::this_thread::sleep_for(std::chrono::milliseconds(900));
     client.post(steerTo({0.4, 0.6, 1.3}, {0, 0.5, 0}, 35));
     ReadFrame frame = client.frame(0); // of steps that came together there is the last alone
-    while (nlohmann::json::parse(frame.text).at("pose").at("from").at(2) != 1.3)
+    while (nlohmann::json::parse(frame.text).at("pose").at("from").at(2) < 1.25)
         frame = client.frame(uint64_t(frame.number("number")));
     EXPECT_TRUE(frame.says("coarse", "true"));
     EXPECT_GE(frame.number("width"), 24 / 4);
