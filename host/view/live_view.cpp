@@ -65,7 +65,7 @@ RenderRequest LiveView::requestNow() const {
         request.camera.at = pose_->at;
         request.camera.fieldOfView = pose_->fieldOfView * glm::pi<double>() / 180;
         request.camera.aperture = pose_->aperture;
-        request.camera.focus = pose_->focus;
+        if (pose_->aperture > 0) request.camera.focus = pose_->focus; // a pinhole has none
     }
     return request;
 }
