@@ -108,8 +108,8 @@ class RenderSession {
 
     /// Means, variances and numbers of samples.
     const Film& film() const;
-    /// That film as it is shown: pixels without samples show a neighbour, and what the request wants
-    /// behind the objects is there.
+    /// That film as it is shown: pixels without samples show a neighbour, and what the request
+    /// wants behind the objects is there.
     Film shownFilm();
     /// Puts the light of the request's shadow catcher and its background, if it has them, behind
     /// means of the film's pixels that may be other ones by now.
@@ -126,8 +126,8 @@ class RenderSession {
     /// the program's own. Kept until there are more samples. Throws std::logic_error before the
     /// first sample, DeviceError where the device is lost.
     const denoise::DenoisedPicture& denoised();
-    /// As denoised(), for whoever may find out meanwhile that it is not wanted: asked several times a
-    /// second, and null where that says so.
+    /// As denoised(), for whoever may find out meanwhile that it is not wanted: asked several times
+    /// a second, and null where that says so.
     const denoise::DenoisedPicture* denoisedUnless(const std::function<bool()>& isUnwanted);
 
     /// All that another session needs to go on: Keeping::begun. Throws UsageError of a picture in

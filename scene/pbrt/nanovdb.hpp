@@ -17,10 +17,10 @@ struct NanoGrid {
 };
 
 /// The grid of that name; empty: the file has none. bytes: all of the file (.nvdb, format 32 of
-/// NanoVDB, Museth 2021, and no other). Floats are understood, as they are or packed by zlib. Negative values
-/// and what is no number count as 0. Around the box lies a layer of zeros, so that values fall to
-/// it as they do in the file, whose background has to be 0. Throws SceneError with what was found
-/// of another kind, and for damaged files. mostCells: of the box, at least 1.
+/// NanoVDB, Museth 2021, and no other). Floats are understood, as they are or packed by zlib.
+/// Negative values and what is no number count as 0. Around the box lies a layer of zeros, so that
+/// values fall to it as they do in the file, whose background has to be 0. Throws SceneError with
+/// what was found of another kind, and for damaged files. mostCells: of the box, at least 1.
 std::optional<NanoGrid> readNanoGrid(std::string_view bytes, const std::string& file,
                                      std::string_view name, uint64_t mostCells);
 
