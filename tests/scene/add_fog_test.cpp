@@ -50,12 +50,13 @@ TEST(AddFog, HasAnEdge) {
     const Sphere& edge = scene.spheres.at(1);
     const Material& m = scene.materials.at(edge.material);
     EXPECT_TRUE(m.isNull());
-    EXPECT_EQ(m.inside, 0u);
+    // The glass inside is a medium too, that counts before the fog.
+    EXPECT_EQ(scene.media.at(m.inside).scattering, glm::vec3(0.5f, 0.25f, 0));
     EXPECT_EQ(m.outside, kNoMedium);
     EXPECT_GT(edge.radius, std::sqrt(3.0f));
     CameraRequest camera;
     camera.from = glm::dvec3(0.5, 0.5, 0.5);
-    EXPECT_EQ(makeCamera(scene, camera, 4, 4, {}).medium, 0u);
+    EXPECT_EQ(makeCamera(scene, camera, 4, 4, {}).medium, m.inside);
     camera.from = glm::dvec3(0, 0, 100);
     EXPECT_EQ(makeCamera(scene, camera, 4, 4, {}).medium, kNoMedium);
     // Views that frame the scene do not frame its fog.
