@@ -1,4 +1,4 @@
-// docs/hard_cases.md: all 82 cases, and no test that is not there.
+// docs/hard_cases.md: all cases, numbered in turn, and no test that is not there.
 #include "host/stress/case.hpp"
 #include "source_dir.h"
 
@@ -59,9 +59,9 @@ TEST(HardCaseList, HasAllCases) {
         for (std::string number; std::getline(cell, number, ',');)
             numbers.insert(std::stoi(number));
     }
-    EXPECT_EQ(numbers.size(), 82u);
+    EXPECT_GE(numbers.size(), 83u);
     EXPECT_EQ(*numbers.begin(), 1);
-    EXPECT_EQ(*numbers.rbegin(), 82);
+    EXPECT_EQ(size_t(*numbers.rbegin()), numbers.size());
 }
 
 TEST(HardCaseList, NamesTestsThatAreThere) {
