@@ -21,7 +21,7 @@ class NearLights {
     NearLights(const LightFoci& foci, const Medium& medium, const Ray& ray, double from, double to,
                const glm::dvec3& share);
 
-    /// Of the distances that are drawn so: at most 1/2.
+    /// The share of distances that is drawn so: at most 1/2.
     double share() const { return share_; }
     /// A distance from the beginning of the stretch to a point of it. Both in [0, 1).
     double draw(double which, double u) const;

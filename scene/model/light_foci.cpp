@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-/// Of media in which distances are drawn about lights: the longest mean free path.
+/// The longest mean free path of media in which distances are drawn about lights.
 double longestFreePath(const Scene& scene) {
     double longest = 0;
     for (const Medium& m : scene.media) {
@@ -92,7 +92,8 @@ double radianceOf(const Light& l, double size) {
            (l.constantAttenuation + size * (l.linearAttenuation + size * l.quadraticAttenuation));
 }
 
-/// Of the free path, or the scene's size: lamps that a sphere of this radius holds are one.
+/// Lamps that a sphere of this radius holds are one: a share of the free path, or of the scene's
+/// size.
 constexpr double kTogether = 0.01;
 
 /// Takes the second one into the first, if a sphere of that radius holds both.

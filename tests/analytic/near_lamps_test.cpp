@@ -49,8 +49,8 @@ struct Haze {
     glm::vec3 absorption, scattering;
 };
 
-/// Of one colour, of two that differ tenfold, and so thin that a path scatters once in a thousand
-/// metres.
+/// Fogs of one colour, of two that differ tenfold, and so thin that a path scatters once in a
+/// thousand metres.
 const std::vector<Haze> kHazes = {
     {glm::vec3(0.01f), glm::vec3(0.04f)},
     {{0.002f, 0, 0.03f}, {0.005f, 0.05f, 0.02f}},

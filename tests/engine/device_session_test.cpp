@@ -343,8 +343,7 @@ TEST(DeviceSession, AShadowCatcherOfItsOwnColourIsThePictureWithTheFloor) {
     EXPECT_NEAR(difference / sum, 0, 0.01);
 }
 
-/// With lights near and far, of which either is chosen: the catcher alone chooses as among the
-/// objects.
+/// The catcher alone chooses among lights near and far as it does among the objects.
 TEST(DeviceSession, AShadowCatcherCatchesNothingWhereObjectsChangeNothing) {
     Scene scene = boardOverFloor(glm::vec3(0));
     addSun(scene);

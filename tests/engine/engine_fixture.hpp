@@ -25,7 +25,7 @@ Film alone(const DeviceRequest& device, std::shared_ptr<const Scene> scene,
 /// Whether all pixels have the same numbers of samples, means and squared deviations, to the bit.
 bool sameBytes(const Film& a, const Film& b);
 
-/// Of the floor of boardOverFloor().
+/// What the floor of boardOverFloor() reflects.
 inline constexpr float kFloorAlbedo = 0.5F;
 /// A grey floor over all the picture, "floor" of the material "grey", and a board above it.
 Scene boardOverFloor(const glm::vec3& boardAlbedo);

@@ -16,6 +16,14 @@ using namespace test;
 
 const DeviceRequest kByReference{.backend = BackendChoice::Reference};
 
+/// The material shines by a texture, as objects do and lamps do not.
+void letGlow(Scene& scene, size_t material) {
+    scene.images.push_back({"white", 1, 1, TexelFormat::Rgba8, {0xFFFFFFFFu}});
+    scene.textures.push_back({});
+    scene.materials[material].emission = glm::vec3(1);
+    scene.materials[material].textures.push_back({TextureSlot::Emission});
+}
+
 FloatImage picture(const Scene& scene, const RenderRequest& request) {
     RenderSession session(kByReference);
     session.begin(std::make_shared<const Scene>(scene), request);
@@ -61,10 +69,7 @@ TEST(ShadowCatcher, CatchesNothingWhereObjectsChangeNothing) {
 
 TEST(ShadowCatcher, WhatObjectsShineIsAdded) {
     Scene scene = boardOverFloor(glm::vec3(0));
-    scene.images.push_back({"white", 1, 1, TexelFormat::Rgba8, {0xFFFFFFFFu}});
-    scene.textures.push_back({});
-    scene.materials[1].emission = glm::vec3(1);
-    scene.materials[1].textures.push_back({TextureSlot::Emission});
+    letGlow(scene, 1);
     RenderRequest request = fromAbove(256);
     request.background = Background{1, 1, {glm::vec3(0)}};
     const FloatImage whole = picture(scene, request);
@@ -119,10 +124,7 @@ TEST(ShadowCatcher, AloneHasTheSizeOfTheScene) {
 /// A catcher that glows by itself is no shadow of its own.
 TEST(ShadowCatcher, OfAGlowingFloorCatchesNothingByItself) {
     Scene scene = boardOverFloor(glm::vec3(0));
-    scene.images.push_back({"white", 1, 1, TexelFormat::Rgba8, {0xFFFFFFFFu}});
-    scene.textures.push_back({});
-    scene.materials[0].emission = glm::vec3(1);
-    scene.materials[0].textures.push_back({TextureSlot::Emission});
+    letGlow(scene, 0);
     for (const Material& m : catcherAlone(scene, "floor").materials)
         EXPECT_FALSE(m.emits());
 }
