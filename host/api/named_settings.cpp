@@ -167,6 +167,8 @@ constexpr Row<Asked> kPictureRows[] = {
      [](Asked& a, Name n, const Value& v) { a.request.branches = whole(n, v, 1, 64); }},
     {"guiding", "which pictures' light samples are guided: auto, on or off",
      [](Asked& a, Name n, const Value& v) { a.request.guiding = choice<Guiding>(n, v); }},
+    {"portals", "whether light samples to the sky aim at openings: auto, on or off",
+     [](Asked& a, Name n, const Value& v) { a.request.portals = choice<PortalUse>(n, v); }},
     {"integrator", "path, normals or depth",
      [](Asked& a, Name n, const Value& v) {
          a.request.estimator.integrator = choice<Integrator>(n, v);
@@ -211,6 +213,8 @@ constexpr Row<SceneRequest> kReadingRows[] = {
      [](SceneRequest& s, Name n, const Value& v) {
          s.ground = {true, color(n, v, 1, "one or three shares in [0, 1]")};
      }},
+    {"portals", "objects, with commas between, that are openings to the sky in place of surfaces",
+     [](SceneRequest& s, Name n, const Value& v) { s.portals = names(n, v, "names of objects"); }},
     {"environment_rotation", "degrees about the vertical",
      [](SceneRequest& s, Name n, const Value& v) {
          s.environment.rotationDegrees = number(n, v, -3600, 3600);

@@ -76,12 +76,19 @@ SunRequest sun(std::string_view name, const Value& value) {
     return result;
 }
 
-std::vector<Layer> layers(std::string_view name, const Value& value) {
-    std::vector<Layer> result;
-    const std::string& list = word(name, value, "names of layers with commas between");
+std::vector<std::string> names(std::string_view name, const Value& value, const std::string& what) {
+    std::vector<std::string> result;
+    const std::string& list = word(name, value, what + " with commas between");
     for (size_t first = 0, end = 0; !list.empty() && end != std::string::npos; first = end + 1) {
         end = list.find(',', first);
-        const std::string one = list.substr(first, end - first);
+        result.push_back(list.substr(first, end - first));
+    }
+    return result;
+}
+
+std::vector<Layer> layers(std::string_view name, const Value& value) {
+    std::vector<Layer> result;
+    for (const std::string& one : names(name, value, "names of layers")) {
         const auto layer = valueNamed<Layer>(one);
         if (!layer) refuse(name, one, allNames<Layer>());
         if (std::ranges::count(result, *layer) == 0) result.push_back(*layer);

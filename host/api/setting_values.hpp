@@ -32,6 +32,8 @@ const std::string& word(std::string_view name, const Value& value, const std::st
 /// One number for all channels, or three, of at most `most`.
 glm::vec3 color(std::string_view name, const Value& value, double most, const std::string& what);
 SunRequest sun(std::string_view name, const Value& value);
+/// `what`: they name, for messages.
+std::vector<std::string> names(std::string_view name, const Value& value, const std::string& what);
 std::vector<Layer> layers(std::string_view name, const Value& value);
 Roulette roulette(std::string_view name, const Value& value);
 Focus focus(std::string_view name, const Value& value);

@@ -135,8 +135,10 @@ CommandOption& CommandOption::maybeApart() {
     return *this;
 }
 
-CommandOption& CommandOption::maybeWithoutNumber(std::string number) {
-    ifMissing = std::move(number);
+CommandOption& CommandOption::maybeWithout(std::string word,
+                                           std::function<bool(const std::string&)> isItsWord) {
+    ifMissing = std::move(word);
+    isItsOwn = std::move(isItsWord);
     return *this;
 }
 

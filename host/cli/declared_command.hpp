@@ -108,9 +108,9 @@ class CommandOption {
     CommandOption& maybeJoined();
     /// A word, or two whole numbers, which are stored as one word with a comma: 320,180.
     CommandOption& maybeApart();
-    /// Its number may be missing, and is then this one: a word behind it that is no whole number
+    /// Its word may be missing, and is then this one: a word behind it that is none of its own
     /// belongs to others.
-    CommandOption& maybeWithoutNumber(std::string number);
+    CommandOption& maybeWithout(std::string word, std::function<bool(const std::string&)> isItsOwn);
     /// Is among the few that --help lists first.
     CommandOption& common();
     /// Words that completion proposes. Others may be understood too.
@@ -129,6 +129,7 @@ class CommandOption {
     std::string help, group, usual;
     std::string range;     ///< of its numbers, in words; empty: it takes none
     std::string ifMissing; ///< its word where it has none; empty: it must have one
+    std::function<bool(const std::string&)> isItsOwn; ///< with ifMissing: a word behind it
     uint32_t wordCount = 1;
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
     bool isRequired = false, isHidden = false, isFirst = false, isBesidePicture = false;

@@ -134,8 +134,8 @@ void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& ask
     const std::string moot =
         e.integrator != Integrator::Path
             ? c.givenOf({"-m", "--min-bounce", "-l", "--direct", "-H", "--light-choice",
-                         "--roulette", "--gap-proposal", "--guiding", "--terminator-offset",
-                         "--branches", "-a", "--clamp-indirect"})
+                         "--roulette", "--gap-proposal", "--guiding", "--portals",
+                         "--terminator-offset", "--branches", "-a", "--clamp-indirect"})
             : "";
     if (!moot.empty())
         c.host.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",
@@ -194,6 +194,11 @@ void declareBranches(OptionList& list, RenderRequest& picture, const std::string
                 "light samples go to the parts of an environment that are seen from where they "
                 "are taken, which is learnt before the picture begins, unless it gains little",
                 picture.guiding);
+    list.choice("--portals", "WHEN",
+                "light samples to the sky aim at the openings that a room sees it through: those "
+                "of --portal, or of the file, or else those that are found, unless that gains "
+                "little",
+                picture.portals);
     list.number("--branches", "K",
                 "paths that share a camera ray and the light samples where it ends; -s, which "
                 "counts paths, is a multiple of it",

@@ -2,8 +2,10 @@
 #include "host/cli/declared_command.hpp"
 #include "host/cli/presets.hpp"
 #include "host/cli/sequence.hpp"
+#include "host/cli/word_spelling.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
+#include "host/core/nearest_name.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/film/image_file.hpp"
 
@@ -42,9 +44,14 @@ void declareOutput(OptionList& list, RenderOptions& o) {
         .proposes(Proposed::Files);
     declarePictureFile(list, o.output, o.tone);
     declareSeen(list, o.picture);
-    list.choice("--denoise", "WHICH",
-                "what takes the noise out of the picture that is finished (docs/guide/denoise.md)",
+    list.choice("--denoise", "[WHICH]",
+                "what takes the noise out of the picture that is finished (docs/guide/denoise.md); "
+                "without WHICH: on",
                 o.picture.denoiser)
+        .maybeWithout("on",
+                      [](const std::string& word) {
+                          return nearestName(word, namesOf<Denoiser>()).has_value();
+                      })
         .excludes("--share", "films of shares are put together first: stromboli denoise has it");
     list.text("--stats", "FILE.json",
               "write statistics of the render as JSON; - for standard output", o.output.statsFile)
@@ -88,7 +95,7 @@ void declareWatching(OptionList& list, WatchOptions& o, ProgressRequest& progres
                 "serve a page that shows the picture while it is rendered, on this machine alone; "
                 "without a port at any that is free; the address is printed (docs/guide/view.md)",
                 o.port, {0, 65535})
-        .maybeWithoutNumber("0")
+        .maybeWithout("0", isWholeNumber)
         .excludes("--share", "its picture is in several films")
         .besidePicture();
     list.words("--update", "FILE",

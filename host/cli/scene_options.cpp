@@ -141,10 +141,15 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
                1, [&environment](const Words& words) { environment.sun = readSun(words[0]); })
         .excludes("--env", "both are the light from all around")
         .excludes("--cs184");
-    list.words("--ground", "COLOR",
-               "puts a wide diffuse floor under all there is: on (grey), the share of light that "
-               "it reflects, 0 to 1, or R,G,B",
+    list.words("--ground", "[COLOR]",
+               "puts a wide diffuse floor under all there is: on (grey, also without COLOR), the "
+               "share of light that it reflects, 0 to 1, or R,G,B",
                1, [&scene](const Words& words) { scene.ground = readGround(words[0]); })
+        .maybeWithout("on",
+                      [](const std::string& word) {
+                          return word == "on" ||
+                                 word.find_first_not_of("0123456789.,e-+") == std::string::npos;
+                      })
         .excludes("--cs184");
     list.real("--env-rotate", "DEGREES",
               "turns it, or the file's own one, about the vertical, counter-clockwise seen from "
@@ -153,6 +158,11 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
         .excludes("--sun", "its first number turns it");
     list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
         .needs("--env");
+    list.list("--portal", "NAME",
+              "objects, with commas between, that are no surfaces, but rectangles through which "
+              "the sky is seen: light samples to it aim at them",
+              scene.portals)
+        .excludes("--cs184");
     list.words("--fog", "DENSITY",
                "fills the scene with fog of that extinction per metre; DENSITY,R,G,B: of a colour; "
                "and ,G behind either: its light goes forwards (up to 0.9999) or back (-0.9999)",

@@ -4,12 +4,13 @@
 #include <cctype>
 
 namespace stromboli {
-namespace {
 
 bool isWholeNumber(const std::string& s) {
     return !s.empty() &&
            std::all_of(s.begin(), s.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
+
+namespace {
 
 /// The two numbers of "640x360"; empty if the word is anything else.
 Words joinedNumbers(const std::string& word) {
@@ -67,14 +68,14 @@ Words withNumbersTogether(const OptionList& list, const Words& words) {
 }
 
 /// "--watch room.xml" is "--watch 0 room.xml", since its number may be missing.
-Words withMissingNumbers(const OptionList& list, const Words& words) {
+Words withMissingWords(const OptionList& list, const Words& words) {
     Words all;
     for (size_t i = 0; i < words.size(); ++i) {
         all.push_back(words[i]);
-        if (i + 1 < words.size() && isWholeNumber(words[i + 1])) continue;
-        for (const CommandOption& o : list.all())
-            if (!o.ifMissing.empty() && std::ranges::count(o.dashedNames(), words[i]) > 0)
-                all.push_back(o.ifMissing);
+        for (const CommandOption& o : list.all()) {
+            if (o.ifMissing.empty() || std::ranges::count(o.dashedNames(), words[i]) == 0) continue;
+            if (i + 1 == words.size() || !o.isItsOwn(words[i + 1])) all.push_back(o.ifMissing);
+        }
     }
     return all;
 }
@@ -82,7 +83,7 @@ Words withMissingNumbers(const OptionList& list, const Words& words) {
 } // namespace
 
 Words inUsualSpelling(const OptionList& list, const Words& words) {
-    return withMissingNumbers(list, withNumbersTogether(list, withoutJoinedNumbers(list, words)));
+    return withMissingWords(list, withNumbersTogether(list, withoutJoinedNumbers(list, words)));
 }
 
 Words withoutHelpCommand(const Words& words) {

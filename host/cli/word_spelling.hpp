@@ -6,8 +6,10 @@ namespace stromboli {
 
 // Words of a command line that may be spelled in several ways, in the one that is parsed.
 
-/// Numbers of an option that are one word ("-r 640x360"), several ("--focus 320 180") or missing
-/// ("--watch room.xml") as its words are declared.
+bool isWholeNumber(const std::string& word);
+
+/// Words of an option that are one ("-r 640x360"), several ("--focus 320 180") or missing ("--watch
+/// room.xml") as they are declared.
 Words inUsualSpelling(const OptionList& list, const Words& words);
 
 /// "help render" is "render --help", and "help" is "--help".

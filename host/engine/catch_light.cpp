@@ -44,6 +44,7 @@ Film RenderSession::takeCaught(Scene scene, uint32_t samples, const SessionEvent
     looks.resolvedCamera = picture_.camera;
     looks.branches = 1; // the same in both scenes
     looks.guiding = Guiding::Off;
+    looks.portals = PortalUse::Off;
     looks.estimator.gapProposal = false; // whose width goes by the geometry
     looks.keepsNoisy = false;
     looks.budget = evenly(samples);

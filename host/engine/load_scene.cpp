@@ -89,6 +89,7 @@ LoadedScene loadScene(const SceneRequest& request, const Listener& listener) {
     }
     const float rotationOfFile = turnOwnEnvironment(*scene, request);
     const std::optional<Bounds> atRest = boundsAtRest(request);
+    takePortals(*scene, request.portals);
     if (request.ground.isGiven) addGround(*scene, under(atRest, request.ground));
     if (request.fog.isGiven()) addFog(*scene, request.fog);
     const double seconds = watch.seconds();
@@ -107,6 +108,7 @@ LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Li
     const float rotationOfFile = turnOwnEnvironment(moment, request);
     if (request.environment.isGiven())
         addEnvironment(moment, std::move(*std::exchange(before.scene->environment, {})));
+    takePortals(moment, request.portals);
     if (request.ground.isGiven) addGround(moment, under(before.atRest, request.ground));
     if (request.fog.isGiven()) addFog(moment, request.fog);
     return {std::make_shared<Scene>(std::move(moment)), seconds, before.atRest, rotationOfFile};

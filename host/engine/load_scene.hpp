@@ -9,10 +9,12 @@
 #include "scene/add_ground.hpp"
 #include "scene/build/conventions.hpp"
 #include "scene/model/scene.hpp"
+#include "scene/named_portals.hpp"
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace stromboli {
 
@@ -47,6 +49,7 @@ struct SceneRequest {
     EnvironmentRequest environment;
     GroundRequest ground;
     FogRequest fog;
+    std::vector<std::string> portals; ///< objects that are openings (scene/named_portals.hpp)
 };
 
 /// A scene in memory. Sessions share it and do not change it; nor may others while one uses it.

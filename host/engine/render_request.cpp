@@ -192,6 +192,9 @@ ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
         request.branches.value_or(branchesThatPay(scene, settings.estimator, request.budget));
     settings.estimator.branches = branches;
     settings.estimator.guidesLight = guidesLight(request);
+    settings.estimator.aimsAtPortals =
+        request.portals == PortalUse::On ||
+        (request.portals == PortalUse::Automatic && request.guiding != Guiding::On);
     settings.budget = inSamples(request.budget, branches);
     checkCrop(settings.area);
     checkPictureFits(settings.area, 3 + request.channels().size());

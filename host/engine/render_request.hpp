@@ -52,6 +52,15 @@ inline constexpr auto kNamedValues<Guiding> = std::to_array<NamedValue<Guiding>>
     {Guiding::Off, "off", "of none"},
 });
 
+/// Whether light samples to the sky aim at windows (docs/theory/estimator.md, "Portals").
+enum class PortalUse { Automatic, On, Off };
+template <>
+inline constexpr auto kNamedValues<PortalUse> = std::to_array<NamedValue<PortalUse>>({
+    {PortalUse::Automatic, "auto", "unless --guiding is on"},
+    {PortalUse::On, "on", "in place of guiding"},
+    {PortalUse::Off, "off", "at none"},
+});
+
 /// What is left to the scene's file where it asks for it (RenderHints).
 struct LeftToFile {
     bool bounces = true, filter = true, integrator = true;
@@ -69,6 +78,7 @@ struct RenderRequest {
     Estimator estimator;              ///< its branches are chosen below
     std::optional<uint32_t> branches; ///< empty: what pays in the scene
     Guiding guiding = Guiding::Automatic;
+    PortalUse portals = PortalUse::Automatic;
     LeftToFile leftToFile;
     PathBudget budget;
     bool transparent = false; ///< alpha in place of the environment

@@ -1,6 +1,6 @@
 // How a backend learns where light samples to an environment arrive, before a picture begins.
-#include "host/bvh/cpu_traversal.hpp"
 #include "host/core/random.hpp"
+#include "host/kernel/feelers.hpp"
 #include "host/kernel/light_guide.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/sampling_session.hpp"
@@ -19,39 +19,13 @@ namespace {
 /// arrive in any case.
 constexpr double kOpenShare = 0.3;
 
-/// The share of rays that meet nothing, of those from what the camera sees back into the half space
-/// of the camera. It decides only whether learning is tried: where a ray starts need not be exact,
-/// and opacity is not looked at.
-double openShare(const GpuScene& scene, const Camera& camera) {
-    constexpr int kSide = 20, kRays = 4;
-    Random random(1);
-    int rays = 0, free = 0;
-    for (int i = 0; i < kSide * kSide; ++i) {
-        const glm::dvec2 at((i % kSide + 0.5) / kSide * 2 - 1, (i / kSide + 0.5) / kSide * 2 - 1);
-        const glm::dvec3 offset =
-            at.x * camera.halfWidth * camera.right + at.y * camera.halfHeight * camera.up;
-        TraversalRay ray;
-        ray.origin = camera.orthographic ? camera.position + offset : camera.position;
-        ray.direction =
-            glm::normalize(camera.orthographic ? -camera.back : offset - camera.backOfMiddle());
-        const TraversalHit hit = closestHit(scene.bvh, ray);
-        if (!hit) continue;
-        TraversalRay out;
-        out.origin = ray.origin + hit.t * (1 - 0x1p-12f) * ray.direction;
-        for (int k = 0; k < kRays; ++k) {
-            out.direction = random.direction();
-            if (glm::dot(out.direction, ray.direction) > 0) out.direction = -out.direction;
-            ++rays;
-            free += anyHit(scene.bvh, out) ? 0 : 1;
-        }
-    }
-    return rays > 0 ? double(free) / rays : 1;
-}
-
 } // namespace
 
 bool liesOpen(const GpuScene& scene, const Camera& camera) {
-    return openShare(scene, camera) > kOpenShare;
+    constexpr uint32_t kSide = 20, kRays = 4;
+    Random random(1);
+    const Feelers seen = lookAround(scene.bvh, camera, kSide);
+    return shareOfFree(feelFrom(scene.bvh, seen, kRays, random)).value_or(1) > kOpenShare;
 }
 
 // --- Learning ------------------------------------------------------------------------------------
@@ -121,14 +95,7 @@ void VulkanBackend::learn(const DeviceTuning& ofPicture) {
         guide = *tuning_.guide;
     else
         guide = learnLightGuide(noteLightSamples(area, frame, tuning), *scene_->lights.environment);
-    if (guide.gain >= kGainThatPays) {
-        const auto bytes = std::as_bytes(std::span(guide.rows));
-        auto rows =
-            std::make_unique<vulkan::Buffer>(device_, "light guide", bytes.size(), rowUse(tuning));
-        vulkan::Queue queue(device_);
-        rows->upload(queue, bytes);
-        guide_ = std::move(rows);
-    }
+    if (guide.gain >= kGainThatPays) guide_ = uploaded("light guide", guide.rows, tuning);
     learntFor_ = LearntFor{frame, estimator_, camera_.orthographic};
 }
 

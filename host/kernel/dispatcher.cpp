@@ -53,12 +53,16 @@ uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const Pa
     // At a surface, at its other side for a light sample, and for a bounce.
     constexpr uint32_t kGuideLoops = 3;
     const bool isGuided = kernel.features()[SPEC_GUIDES_LIGHT] != 0;
+    // To choose one and to tell a sample's density, and that of a bounce that finds the sky.
+    const uint32_t portals = kernel.features()[SPEC_PORTALS];
+    constexpr uint32_t kPortalLoops = 3;
     // A light is picked for a light sample, and looked up once more for MIS.
     const uint32_t perIteration = 1 + passesOfCameraRays(kernel.features()) + 2 +
                                   (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
                                   (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures +
                                   (scene.media & gpu::MEDIA_VARY ? gpu::GRID_STEPS + 1 : 0) +
-                                  (isGuided ? kGuideLoops * (gpu::GUIDE_LEVELS + 1) : 0);
+                                  (isGuided ? kGuideLoops * (gpu::GUIDE_LEVELS + 1) : 0) +
+                                  (portals ? kPortalLoops * (portals + 1) : 0);
     return loopLimit(device, perIteration);
 }
 

@@ -38,7 +38,7 @@ struct DispatchTarget {
     const DeviceScene& scene;
     std::span<const FilmSegment> film;
     const vulkan::Buffer& filter;     ///< the picture's table (sampling_tables.hpp)
-    const vulkan::Buffer& guide;      ///< what guiding has learnt; of a kernel without it, any
+    const vulkan::Buffer& guide;      ///< what guiding has learnt, or portals; without either, any
     const vulkan::Buffer& lightNotes; ///< what it learns from; likewise
 };
 

@@ -3,6 +3,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/detail_plan.hpp"
 #include "host/kernel/detail_rows.hpp"
+#include "host/kernel/find_portals.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/material_rows.hpp"
 #include "host/kernel/rows.hpp"
@@ -23,6 +24,7 @@ struct GpuScene {
     std::vector<Row> materials;
     DetailRows details; ///< attributes of corners, and texels
     LightTable lights;
+    Portals portals; ///< of the picture to come; packScene() leaves it empty
     SceneClosures closures;                  ///< of the materials that primitives have
     bool hasEmission = false;                ///< a primitive emits
     bool hasBlends = false;                  ///< a primitive's material is a mixture

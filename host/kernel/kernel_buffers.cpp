@@ -96,6 +96,8 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
                              kNotedSamples * gpu::GUIDE_VERTICES * sizeof(gpu::LightNote),
                          rows});
     }
+    if (aimsAtPortals(scene, estimator))
+        plans.push_back({"portals", kMostPortals * sizeof(gpu::PortalRows), rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
     return plans;

@@ -200,11 +200,17 @@ bool guidesLight(const GpuScene& scene, const Estimator& settings) {
            (lightKinds(scene, settings) & 1u << gpu::LIGHT_ENVIRONMENT) != 0;
 }
 
+bool aimsAtPortals(const GpuScene& scene, const Estimator& settings) {
+    constexpr uint32_t kSkies = 1u << gpu::LIGHT_ENVIRONMENT | 1u << gpu::LIGHT_AMBIENT;
+    return settings.aimsAtPortals && (lightKinds(scene, settings) & kSkies) != 0 &&
+           settings.conventions.ambientAboutNormal;
+}
+
 KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning) {
     Estimator estimator = settings;
     estimator.branches = 1;
-    estimator.guidesLight = false;
+    estimator.guidesLight = estimator.aimsAtPortals = false;
     KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
     f[SPEC_NOTES_LIGHT] = 1;
     return f;
@@ -217,7 +223,7 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
     estimator.integrator = what == Seeing::Coverage ? Integrator::Normals : Integrator::Path;
     estimator.branches = 1;
     estimator.gapProposal = false;
-    estimator.guidesLight = false;
+    estimator.guidesLight = estimator.aimsAtPortals = false;
     estimator.roulette.mode = Roulette::Mode::None;
     KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
     for (const KernelConstant ofLight :

@@ -33,6 +33,8 @@ KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
 
 /// Whether light samples of these settings go to an environment, and shall be guided.
 bool guidesLight(const GpuScene& scene, const Estimator& settings);
+/// Whether light samples of these settings go to the sky, and shall aim at the scene's portals.
+bool aimsAtPortals(const GpuScene& scene, const Estimator& settings);
 
 /// Those of the kernel that records the path of a sample as it takes it.
 KernelFeatures recordingFeatures(const GpuScene& scene, const Camera& camera,

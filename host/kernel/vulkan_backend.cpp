@@ -47,6 +47,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.lightSamples = direct.lights;
     f.branches = s.branches;
     f.gapWidth = scene.gapWidth;
+    f.portalShare = float(scene.portals.share);
     f.cameraMedium =
         camera.medium == kNoMedium ? gpu::NO_MEDIUM : scene.mediumRow.at(camera.medium);
     return f;
@@ -136,9 +137,11 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     camera_ = camera;
     estimator_ = estimator;
     frame_ = makeFrame(*scene_, camera, area_, estimator);
+    const bool aims = aimsAtPortals(*scene_, estimator) && !scene_->portals.all.empty();
+    if (aims) estimator_.guidesLight = false;
     // The driver compiles on one thread, and the scene goes to the device meanwhile.
     const bool mayLearn =
-        guidesLight(*scene_, estimator) && (tuning_.guide || !liesOpen(*scene_, camera));
+        guidesLight(*scene_, estimator_) && (tuning_.guide || !liesOpen(*scene_, camera));
     if (!mayLearn) estimator_.guidesLight = false;
     const KernelFeatures first = mayLearn ? notingFeatures(*scene_, camera, estimator, tuning)
                                           : kernelFeatures(*scene_, camera, estimator_, tuning);
@@ -147,7 +150,9 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     if (!deviceScene_)
         deviceScene_ =
             std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
-    setFilter(filterTable(estimator.filter, estimator.filterShape), tuning);
+    filter_ =
+        uploaded("pixel filter", filterTable(estimator.filter, estimator.filterShape), tuning);
+    portals_ = aims ? uploaded("portals", portalRows(scene_->portals.all), tuning) : nullptr;
     StageKernels kernels = compiled.get();
     if (mayLearn) {
         learn(tuning);
@@ -168,7 +173,7 @@ std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSe
                                 *deviceScene_,
                                 film,
                                 *filter_,
-                                estimator_.guidesLight && !lightNotes ? *guide_ : *filter_,
+                                whereSamplesGo(lightNotes != nullptr),
                                 lightNotes ? *lightNotes : *filter_};
     const DispatchSettings settings{frame, tuning, tuning_.targetSeconds, tuning_.fixedIterations};
     if (tuning.scheduler == PathScheduler::Wavefront)
@@ -176,12 +181,21 @@ std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSe
     return std::make_unique<PersistentDispatcher>(target, *kernels.front(), settings);
 }
 
-void VulkanBackend::setFilter(const std::vector<Row>& table, const DeviceTuning& tuning) {
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(table));
-    filter_ =
-        std::make_unique<vulkan::Buffer>(device_, "pixel filter", bytes.size(), rowUse(tuning));
+/// Any where the kernel reads none.
+const vulkan::Buffer& VulkanBackend::whereSamplesGo(bool areNoted) const {
+    if (portals_) return *portals_;
+    return estimator_.guidesLight && !areNoted ? *guide_ : *filter_;
+}
+
+std::unique_ptr<vulkan::Buffer> VulkanBackend::uploaded(std::string_view name,
+                                                        const std::vector<Row>& rows,
+                                                        const DeviceTuning& tuning) const {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(rows));
+    auto buffer =
+        std::make_unique<vulkan::Buffer>(device_, std::string(name), bytes.size(), rowUse(tuning));
     vulkan::Queue queue(device_);
-    filter_->upload(queue, bytes);
+    buffer->upload(queue, bytes);
+    return buffer;
 }
 
 StageKernels VulkanBackend::kernelsFor(const KernelFeatures& features, const DeviceTuning& tuning) {

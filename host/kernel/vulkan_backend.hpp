@@ -91,7 +91,9 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
                                                const DeviceTuning& tuning,
                                                const vulkan::Buffer* lightNotes = nullptr) const;
     std::vector<SampleValue> someAlone(uint32_t pixel, uint32_t first, uint32_t count) const;
-    void setFilter(const std::vector<Row>& table, const DeviceTuning& tuning);
+    const vulkan::Buffer& whereSamplesGo(bool areNoted) const;
+    std::unique_ptr<vulkan::Buffer> uploaded(std::string_view name, const std::vector<Row>& rows,
+                                             const DeviceTuning& tuning) const;
     // backend_learning.cpp
     void learn(const DeviceTuning& tuning);
     std::vector<gpu::LightNote> noteLightSamples(const PictureArea& area, const gpu::Frame& frame,
@@ -119,9 +121,10 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
         bool parallel; ///< camera rays
     };
     std::optional<LearntFor> learntFor_;
-    std::unique_ptr<vulkan::Buffer> guide_;  ///< LightGuide::rows; none: it does not pay
-    std::unique_ptr<vulkan::Buffer> filter_; ///< the table of its pixel filter
-    std::unique_ptr<Dispatcher> dispatcher_; ///< refers to film, filter and kernels
+    std::unique_ptr<vulkan::Buffer> guide_;   ///< LightGuide::rows; none: it does not pay
+    std::unique_ptr<vulkan::Buffer> portals_; ///< PortalRows; none: light samples aim at none
+    std::unique_ptr<vulkan::Buffer> filter_;  ///< the table of its pixel filter
+    std::unique_ptr<Dispatcher> dispatcher_;  ///< refers to film, filter and kernels
 };
 
 } // namespace stromboli

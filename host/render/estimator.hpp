@@ -221,6 +221,9 @@ struct Estimator {
     /// Light samples to an environment go where others have found it before (docs/theory/
     /// estimator.md, "Learned light samples"), not by its brightness alone.
     bool guidesLight = false;
+    /// Light samples to the sky aim at windows (docs/theory/estimator.md, "Portals"); then they are
+    /// not guided besides.
+    bool aimsAtPortals = false;
     Roulette roulette;
     /// The most that light may bring which was scattered twice or more, by each way on which a path
     /// finds it, in its brightest channel; the rest is dropped. 0: all that it brings. Biased.

@@ -84,7 +84,7 @@ template <class Archive>
 void pass(Archive& a, Estimator& e) {
     a(e.lightSamples), a(e.maxBounces), a(e.minBounce), a(e.integrator), a(e.directLight);
     a(e.sampler), a(e.filter), a(e.lightChoice), a(e.branches), a(e.gapProposal), a(e.guidesLight),
-        a(e.roulette.mode);
+        a(e.aimsAtPortals), a(e.roulette.mode);
     a(e.roulette.terminationProbability), a(e.roulette.throughputStart), a(e.seed),
         a(e.showsBackdrop), a(e.indirectLimit);
     pass(a, e.filterShape);

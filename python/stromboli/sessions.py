@@ -272,6 +272,7 @@ def render(
     roulette: Union[None, str, float] = None,
     gap_proposal: Optional[bool] = None,
     guiding: Optional[str] = None,
+    portals: Optional[str] = None,
     branches: Optional[int] = None,
     integrator: Optional[str] = None,
     sampler: Optional[str] = None,
@@ -304,7 +305,7 @@ def render(
     focus -- metres, "auto" (what is in the middle), or the column and the row of a pixel
     max_bounces, min_bounce -- scatterings of light at most (8), and at least (0)
     clamp_indirect -- light that was scattered twice or more brings at most this at a time: biased
-    light_samples, direct, light_choice, roulette, gap_proposal, guiding, branches, integrator, sampler,
+    light_samples, direct, light_choice, roulette, gap_proposal, guiding, portals, branches, integrator, sampler,
     filter -- as the options of the command line
     backend, device, scheduler, threads, film_memory -- as of Session
     progress -- as of Session.run
@@ -351,6 +352,7 @@ def render(
         roulette=roulette,
         gap_proposal=gap_proposal,
         guiding=guiding,
+        portals=portals,
         branches=branches,
         integrator=integrator,
         sampler=sampler,

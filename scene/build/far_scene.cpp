@@ -102,6 +102,8 @@ void SceneBuilder::moveOrigin() {
         scene_.spheres[i].center = sphereCenters_[i] - *origin;
     for (size_t i = 0; i < scene_.lights.size(); ++i)
         scene_.lights[i].position = lightPlaces_[i] - *origin;
+    for (size_t i = 0; i < scene_.portals.size(); ++i)
+        scene_.portals[i].corner = portalCorners_[i] - *origin;
     for (Medium& medium : scene_.media)
         for (std::array<glm::dvec4, 3>* rows : medium.places())
             for (glm::dvec4& row : *rows)

@@ -123,6 +123,12 @@ void SceneBuilder::placeLight(Light light, const glm::dmat4& toWorld) {
     }
 }
 
+void SceneBuilder::addPortal(const glm::dvec3& corner, const glm::dvec3& edgeA,
+                             const glm::dvec3& edgeB) {
+    scene_.portals.push_back({glm::vec3(corner), glm::vec3(edgeA), glm::vec3(edgeB)});
+    portalCorners_.push_back(corner);
+}
+
 void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld, bool isMirrored) {
     const glm::dvec3 scale = axisLengths(toWorld);
     if (!poseCamera(camera, toWorld))

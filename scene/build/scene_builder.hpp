@@ -44,6 +44,8 @@ class SceneBuilder {
 
     /// Light from all around.
     void setEnvironment(Environment environment) { scene_.environment = std::move(environment); }
+    /// A rectangle in the world through which the sky's light comes.
+    void addPortal(const glm::dvec3& corner, const glm::dvec3& edgeA, const glm::dvec3& edgeB);
     /// How the file wants to be rendered.
     RenderHints& hints() { return scene_.hints; }
 
@@ -126,8 +128,9 @@ class SceneBuilder {
     Scene scene_;
     Report report_;
     std::vector<Shape> shapes_;
-    std::vector<MeshUse> meshes_;                         ///< that finish() is to place
-    std::vector<glm::dvec3> sphereCenters_, lightPlaces_; ///< of the scene's, not yet rounded
+    std::vector<MeshUse> meshes_; ///< that finish() is to place
+    std::vector<glm::dvec3> sphereCenters_, lightPlaces_,
+        portalCorners_; ///< of the scene's, not yet rounded
     std::optional<FilePlace> tooLargeAt_;
     uint64_t copiedTriangles_ = 0; ///< if each use of a mesh were a copy
     std::optional<uint32_t> defaultMaterial_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/model/environment.hpp"
+#include "scene/model/portal.hpp"
 #include "scene/model/light.hpp"
 #include "scene/model/material.hpp"
 #include "scene/model/render_hints.hpp"
@@ -132,6 +133,8 @@ struct Scene {
     /// has any.
     std::vector<std::array<uint32_t, 3>> attributeCorners;
     std::optional<Environment> environment;
+    /// What the file or the user says lets the sky in; empty: nothing says so.
+    std::vector<Portal> portals;
     std::vector<FileCamera> cameras;    ///< in document order
     std::vector<std::string> instances; ///< names of the placed meshes and spheres
     /// By instance: whether the animation moves it that the scene is a moment of; empty: no

@@ -94,6 +94,22 @@ DirectionMap readDirectionMap(Context& context, const Parameters& light, const s
     return map;
 }
 
+/// Four corners of a rectangle, one after the other, in the world.
+void Surroundings::addPortal(const Parameters& light) {
+    const std::vector<glm::dvec3> p = light.points("portal");
+    const bool isRectangle =
+        p.size() == 4 && build::inRange(p[0]) && build::inRange(p[1]) && build::inRange(p[3]) &&
+        glm::length(p[1] - p[0]) > 0 && glm::length(p[3] - p[0]) > 0 &&
+        std::abs(glm::dot(glm::normalize(p[1] - p[0]), glm::normalize(p[3] - p[0]))) < 1e-3;
+    if (!isRectangle)
+        return light.replace(build::Shortfall::Model,
+                             "has a portal that is not the four corners of a rectangle",
+                             "light from everywhere");
+    context_.builder.addPortal(p[0], p[1] - p[0], p[3] - p[0]);
+    context_.report().assume("light 'infinite': light samples aim at its portal, but light comes "
+                             "through all other openings as well");
+}
+
 void Surroundings::add(const Parameters& light, const glm::dmat4& worldFromLight) {
     const char* name = context_.isV3() || light.has("mapname") ? "mapname" : "filename";
     const std::optional<std::string> file = light.text(name);
@@ -104,11 +120,7 @@ void Surroundings::add(const Parameters& light, const glm::dmat4& worldFromLight
             context_.isV3() ? colorOf(context_, light, "scale", ColorOf::Number) : std::nullopt)
         factor = stated.value_or(glm::dvec3(1)) * *scale * context_.imagingRatio;
     const double illuminance = light.number("illuminance").value_or(0);
-    if (light.has("portal")) {
-        light.skip({"portal"});
-        context_.report().assume("light 'infinite': it comes from all directions, and not through "
-                                 "its portal alone");
-    }
+    if (light.has("portal")) addPortal(light);
     light.skip({"samples", "nsamples"});
     if (!file) {
         isThere_ = true;

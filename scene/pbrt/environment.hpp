@@ -36,6 +36,7 @@ class Surroundings {
     void finish();
 
   private:
+    void addPortal(const Parameters& light);
     struct Map {
         DirectionMap picture;
         glm::dmat3 lightFromWorld;

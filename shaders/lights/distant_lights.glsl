@@ -1,5 +1,8 @@
 // Lights from infinity: ambient light, which is the same from everywhere, and directional light.
 
+#include "lights/portals.glsl"
+#include "lights/environment.glsl"
+
 /// Density of the directions of an ambient light's samples, by solid angle: cos / pi about the shading
 /// normal, as constant light arrives at a surface; in a medium the same from everywhere.
 float ambientPdf(vec3 normal, vec3 w) {
@@ -11,24 +14,25 @@ vec3 ambientRadianceOf(LightRows rows, vec3 w) {
     return colorOf(rows) + (w.y > 0.0 ? ambientLight(rows).fromAbove : vec3(0.0));
 }
 
-LightSample sampleAmbientLight(SurfacePoint s, LightRows rows, vec2 u) {
-    LightSample r;
-    if (AMBIENT_ABOUT_NORMAL) {
+LightSample sampleAmbientLight(const Frame frame, SurfacePoint s, LightRows rows, vec2 u) {
+    const vec3 p = litPoint(s), n = shadingNormal(s);
+    PortalSample aimed = NOT_AIMED;
+    if (PORTALS > 0u) aimed = samplePortals(frame, p, n, u);
+    vec3 w = aimed.direction;
+    float inversePdf = 1.0 / max(ambientPdf(n, w), TINY);
+    if (!AMBIENT_ABOUT_NORMAL) {
+        w = sampleAmbientCs184(u);
+        inversePdf = 2.0 * PI;
+    } else if (!aimed.isAimed) {
         const vec3 local = sampleCosineHemisphere(u);
-        r.direction = toWorld(makeFrame(shadingNormal(s)), local);
-        r.inversePdf = PI / max(local.z, TINY);
-        if (isNowhere(shadingNormal(s))) {
-            r.direction = sampleUniformSphere(u);
-            r.inversePdf = 4.0 * PI;
+        w = toWorld(makeFrame(n), local);
+        inversePdf = PI / max(local.z, TINY);
+        if (isNowhere(n)) {
+            w = sampleUniformSphere(u);
+            inversePdf = 4.0 * PI;
         }
-    } else {
-        r.direction = sampleAmbientCs184(u);
-        r.inversePdf = 2.0 * PI;
     }
-    r.infinite = true;
-    r.target = r.direction;
-    r.radiance = ambientRadianceOf(rows, r.direction) * r.inversePdf;
-    return r;
+    return skySample(frame, p, n, aimed, w, ambientRadianceOf(rows, w), inversePdf);
 }
 
 LightSample sampleDirectionalLight(LightRows rows) {
@@ -36,7 +40,6 @@ LightSample sampleDirectionalLight(LightRows rows) {
     return LightSample(w, true, w, colorOf(rows), 0.0);
 }
 
-#include "lights/environment.glsl"
 
 /// What a ray finds that meets nothing: the scene's ambient light or environment. It is the first in the
 /// light buffer, if the scene has one; a kernel with everything switched on does not know without looking.
@@ -47,8 +50,8 @@ struct FoundSky {
 
 const FoundSky NO_SKY = FoundSky(vec3(0.0), 1.0);
 
-/// w: the ray's direction; normal and table: of the surface that it left (guideTable()).
-FoundSky skyFrom(vec3 normal, uint table, vec3 w) {
+/// w: the ray's direction; p, normal and table: of the surface that it left (guideTable()).
+FoundSky skyFrom(const Frame frame, vec3 p, vec3 normal, uint table, vec3 w) {
     if (!HAS_AMBIENT) return NO_SKY;
     FoundSky found = FoundSky(vec3(0.0), 1.0 / max(ambientPdf(normal, w), TINY));
     const LightRows rows = fetchLightRows(0u);
@@ -57,5 +60,6 @@ FoundSky skyFrom(vec3 normal, uint table, vec3 w) {
         const EnvironmentValue value = environmentFrom(rows, table, w);
         found = FoundSky(value.radiance, 1.0 / max(value.pdf, TINY));
     }
+    if (PORTALS > 0u) found.inversePdf = skyInversePdf(frame, portalDensity(p, normal, w), found.inversePdf);
     return found;
 }

@@ -139,20 +139,26 @@ uvec2 pickEnvironmentTexel(EnvironmentLight e, uint table, inout vec2 u) {
     return place;
 }
 
-LightSample sampleEnvironment(LightRows rows, uint table, vec2 u) {
+/// s: the surface from the side where light leaves.
+LightSample sampleEnvironment(const Frame frame, SurfacePoint s, LightRows rows, vec2 u) {
     const EnvironmentLight e = environmentLight(rows);
-    const uvec2 texel = pickEnvironmentTexel(e, table, u);
-    vec2 place = vec2(texel) + 0.5 + vec2(sampleTent(u.x), sampleTent(u.y));
-    // Around the picture, and turned back at the poles: beyond them the interpolation repeats the last row.
-    place.x += place.x < 0.0 ? float(e.width) : (place.x >= float(e.width) ? -float(e.width) : 0.0);
-    place.y = abs(place.y);
-    if (place.y > float(e.height)) place.y = 2.0 * float(e.height) - place.y;
-    const EnvironmentValue value = environmentAt(e, colorOf(rows), table, place);
-    LightSample s;
-    s.direction = directionInEnvironment(e, place);
-    s.infinite = true;
-    s.target = s.direction;
-    s.inversePdf = value.pdf > 0.0 ? 1.0 / value.pdf : 0.0;
-    s.radiance = value.radiance * s.inversePdf;
-    return s;
+    const vec3 p = litPoint(s), n = shadingNormal(s);
+    PortalSample aimed = NOT_AIMED;
+    if (PORTALS > 0u) aimed = samplePortals(frame, p, n, u);
+    vec2 place = vec2(0.0);
+    if (!aimed.isAimed) {
+        const uvec2 texel = pickEnvironmentTexel(e, s.table, u);
+        place = vec2(texel) + 0.5 + vec2(sampleTent(u.x), sampleTent(u.y));
+        // Around the picture, and turned back at the poles: beyond them the interpolation repeats the last row.
+        place.x += place.x < 0.0 ? float(e.width) : (place.x >= float(e.width) ? -float(e.width) : 0.0);
+        place.y = abs(place.y);
+        if (place.y > float(e.height)) place.y = 2.0 * float(e.height) - place.y;
+    }
+    vec3 direction = directionInEnvironment(e, place);
+    if (aimed.isAimed) {
+        direction = aimed.direction;
+        place = placeInEnvironment(e, direction);
+    }
+    const EnvironmentValue value = environmentAt(e, colorOf(rows), s.table, place);
+    return skySample(frame, p, n, aimed, direction, value.radiance, value.pdf > 0.0 ? 1.0 / value.pdf : 0.0);
 }

@@ -163,9 +163,11 @@
     F(60, float, INDIRECT_LIMIT, 1.0, f[SPEC_CLAMPS_INDIRECT] ? settings.indirectLimit : 0, own, \
       "limit of that light", number, "the most that it brings at a time, in its brightest channel") \
     F(61, uint, FOCI, 0u, shades && samplesLights(settings.directLight) ? scene.foci : 0, own, \
-      "lamps near rays in media", count(""), "distances in media that are drawn about lamps")
+      "lamps near rays in media", count(""), "distances in media that are drawn about lamps") \
+    F(62, uint, PORTALS, 0u, aimsAtPortals(scene, settings) ? scene.portals.all.size() : 0, own, \
+      "portals", count(""), "light samples to the sky that aim at windows")
 
-#define SPEC_COUNT 62
+#define SPEC_COUNT 63
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -115,11 +115,11 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
 #define LIGHT_STRUCTURES(F) \
     F(QuadLight, quadLight, QUAD_LIGHT, isLight(kind, LIGHT_QUAD), sampleQuadLight(given.onlyLight, s, rows, u)) \
     F(SphereLight, sphereLight, SPHERE_LIGHT, isLight(kind, LIGHT_SPHERE), sampleSphereLight(s, rows, u)) \
-    F(AmbientLight, ambientLight, AMBIENT_LIGHT, isLight(kind, LIGHT_AMBIENT), sampleAmbientLight(s, rows, u)) \
+    F(AmbientLight, ambientLight, AMBIENT_LIGHT, isLight(kind, LIGHT_AMBIENT), sampleAmbientLight(given.frame, s, rows, u)) \
     F(DirectionalLight, directionalLight, DIRECTIONAL_LIGHT, isLight(kind, LIGHT_DIRECTIONAL), \
       sampleDirectionalLight(rows)) \
     F(EnvironmentLight, environmentLight, ENVIRONMENT_LIGHT, isLight(kind, LIGHT_ENVIRONMENT), \
-      sampleEnvironment(rows, s.table, u)) \
+      sampleEnvironment(given.frame, s, rows, u)) \
     F(ProjectorLight, projectorLight, PROJECTOR_LIGHT, isLight(kind, LIGHT_PROJECTOR), sampleProjector(s, rows)) \
     F(PointLight, pointLight, POINT_LIGHT, isLight(kind, LIGHT_POINT) || isLight(kind, LIGHT_SPOT), \
       samplePointLight(s, rows))
@@ -159,6 +159,18 @@ struct EnvironmentTexel {
 SHARED_ROWS(EnvironmentTexel, 1);
 SHARED_CONST uint ENVIRONMENT_MANTISSA_BITS = 18u;
 SHARED_CONST uint ENVIRONMENT_EXPONENT_BIAS = 145u;
+
+/// A portal (scene/model/portal.hpp).
+struct PortalRows {
+    vec3 corner;
+    float unused0;
+    vec3 edgeA;
+    float perSquareA; ///< 1 / edgeA . edgeA
+    vec3 edgeB;
+    float perSquareB;
+};
+SHARED_CONST uint PORTAL_ROWS = 3u;
+SHARED_ROWS(PortalRows, PORTAL_ROWS);
 
 // --- Picking one light --------------------------------------------------------------------------
 // The table of lights holds all LightEntry rows, and behind them either AliasColumn rows, one for each

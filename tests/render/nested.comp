@@ -67,7 +67,7 @@ void gatherDirectLight(const Given given, inout PathState path, inout uint loopP
         if (isShadowRay || path.phase == PHASE_HEMISPHERE) {
             traceToTheEnd(given, path, loopPasses);
             if (isShadowRay) finishShadowRay(given.frame, path);
-            else finishHemisphereRay(path);
+            else finishHemisphereRay(given.frame, path);
         }
         ++loopPasses;
     }

@@ -83,7 +83,7 @@ TEST(FarScenes, BackFromFarAwayAreAtTheirPlace) {
     EXPECT_LT(largestError(scene, mesh, -kFar), kRounding);
 }
 
-TEST(FarScenes, LightsCamerasAndSpheresGoWithThem) {
+TEST(FarScenes, LightsCamerasPortalsAndSpheresGoWithThem) {
     SceneBuilder builder("town.xyz", {});
     const std::vector<uint32_t> materials{builder.defaultMaterial()};
     builder.place(kPlace, builder.addMesh("stair", stair(kFar)), glm::dmat4(1), materials, "stair");
@@ -95,8 +95,11 @@ TEST(FarScenes, LightsCamerasAndSpheresGoWithThem) {
     light.color = glm::vec3(1);
     builder.placeLight(light, movedTo(lamp));
     builder.placeCamera({}, movedTo(eye));
+    builder.addPortal(lamp, {1, 0, 0}, {0, 1, 0});
     const Scene scene = builder.finish();
     EXPECT_NE(scene.origin, glm::dvec3(0));
+    EXPECT_LT(glm::distance(glm::dvec3(scene.portals.at(0).corner) + scene.origin, lamp),
+              kRounding);
     EXPECT_LT(glm::distance(glm::dvec3(scene.spheres.at(0).center) + scene.origin, ball),
               kRounding);
     EXPECT_LT(glm::distance(glm::dvec3(scene.lights.at(0).position) + scene.origin, lamp),

@@ -153,6 +153,27 @@ TEST(PbrtInfinite, IsAConstantOrASum) {
     expectNear(radianceFrom(scene, {0, 1, 0}), {3, 4, 5});
 }
 
+TEST(PbrtInfinite, HasAPortal) {
+    const auto withPortal = [](const std::string& corners) {
+        return loadV4("Translate 9 9 9 LightSource \"infinite\" \"rgb L\" [1 1 1] \"point3 portal\" [" +
+                      corners + "] " + std::string(kTriangle));
+    };
+    const Scene scene = withPortal("1 2 3  1 4 3  1 4 8  1 2 8");
+    ASSERT_EQ(scene.portals.size(), 1u);
+    EXPECT_EQ(scene.portals[0].corner, glm::vec3(1, 2, 3)) << "in the world";
+    EXPECT_EQ(scene.portals[0].edgeA, glm::vec3(0, 2, 0));
+    EXPECT_EQ(scene.portals[0].edgeB, glm::vec3(0, 0, 5));
+    EXPECT_THAT(scene.report.assumed, Contains(HasSubstr("light samples aim at its portal")));
+    for (const char* wrong : {"1 2 3  1 4 3  1 4 8", "1 2 3  1 2 3  1 4 8  1 2 8",
+                              "1 2 3  1 4 3  1 6 8  1 4 8", "1e30 2 3  1 4 3  1 4 8  1 2 8"}) {
+        const Scene without = withPortal(wrong);
+        EXPECT_TRUE(without.portals.empty()) << wrong;
+        EXPECT_THAT(without.report.warnings, Contains(HasSubstr("four corners of a rectangle")))
+            << wrong;
+        EXPECT_TRUE(without.environment) << wrong;
+    }
+}
+
 /// The layout of pbrt-v3: columns of phi, rows from +z down.
 std::string latLong() {
     std::vector<std::array<float, 3>> texels;

@@ -1,0 +1,88 @@
+#include "host/kernel/feelers.hpp"
+
+#include "host/bvh/cpu_traversal.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace stromboli {
+namespace {
+
+/// The corners of the triangle that was hit, in the world; nothing of spheres.
+std::optional<std::array<glm::vec3, 3>> cornersAt(const WideLayout& bvh, const TraversalHit& hit) {
+    const gpu::LeafRecord leaf = asLeaf(bvh.records[hit.primitive / 2]);
+    if (leaf.primitive & gpu::RECORD_IS_SPHERE) return std::nullopt;
+    const bool isFirst = hit.primitive % 2 == 0;
+    std::array<glm::vec3, 3> corners = {leaf.p0, isFirst ? leaf.p1 : leaf.p2,
+                                        isFirst ? leaf.p2 : leaf.p3};
+    if (hit.placement == gpu::NO_PLACEMENT) return corners;
+    const gpu::PlacementRecord placement = asPlacement(bvh.records[hit.placement]);
+    const auto t = std::bit_cast<gpu::TransformRecord>(bvh.records[placement.transform]);
+    for (glm::vec3& p : corners)
+        p = {glm::dot(t.toWorld0, glm::vec4(p, 1)), glm::dot(t.toWorld1, glm::vec4(p, 1)),
+             glm::dot(t.toWorld2, glm::vec4(p, 1))};
+    return corners;
+}
+
+Feeler feel(const WideLayout& bvh, const TraversalRay& ray) {
+    Feeler f{ray.origin, ray.direction};
+    const TraversalHit hit = closestHit(bvh, ray);
+    if (!hit) return f;
+    f.isFree = false;
+    f.met = ray.origin + hit.t * (1 - 0x1p-12f) * ray.direction;
+    if (const auto c = cornersAt(bvh, hit)) {
+        const glm::vec3 n = glm::cross((*c)[1] - (*c)[0], (*c)[2] - (*c)[0]);
+        const float length = glm::length(n);
+        if (length > 0) f.normal = (glm::dot(n, ray.direction) > 0 ? -n : n) / length;
+    }
+    return f;
+}
+
+Feelers feelAll(const WideLayout& bvh, std::span<const TraversalRay> rays) {
+    Feelers felt(rays.size());
+    tbb::parallel_for(size_t(0), rays.size(), [&](size_t i) { felt[i] = feel(bvh, rays[i]); });
+    return felt;
+}
+
+} // namespace
+
+Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side) {
+    std::vector<TraversalRay> rays(size_t(side) * side);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const glm::dvec2 at((double(i % side) + 0.5) / side * 2 - 1,
+                            (double(i / side) + 0.5) / side * 2 - 1);
+        const glm::dvec3 offset =
+            at.x * camera.halfWidth * camera.right + at.y * camera.halfHeight * camera.up;
+        rays[i].origin = camera.orthographic ? camera.position + offset : camera.position;
+        rays[i].direction =
+            glm::normalize(camera.orthographic ? -camera.back : offset - camera.backOfMiddle());
+    }
+    Feelers seen = feelAll(bvh, rays);
+    std::erase_if(seen, [](const Feeler& f) { return f.isFree; });
+    return seen;
+}
+
+Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t each,
+                 Random& random) {
+    std::vector<TraversalRay> rays;
+    for (const Feeler& f : ended)
+        for (size_t k = 0; k < each && !f.isFree; ++k) {
+            TraversalRay ray;
+            ray.origin = f.met;
+            ray.direction = random.direction();
+            const glm::vec3 side = f.normal == glm::vec3(0) ? -f.direction : f.normal;
+            if (glm::dot(ray.direction, side) < 0) ray.direction = -ray.direction;
+            rays.push_back(ray);
+        }
+    return feelAll(bvh, rays);
+}
+
+std::optional<double> shareOfFree(std::span<const Feeler> feelers) {
+    if (feelers.empty()) return std::nullopt;
+    return double(std::ranges::count(feelers, true, &Feeler::isFree)) / double(feelers.size());
+}
+
+} // namespace stromboli

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "host/bvh/wide_layout.hpp"
+#include "host/kernel/rows.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/model/portal.hpp"
+
+#include <span>
+#include <vector>
+
+namespace stromboli {
+
+/// Where light samples to the sky aim. The cross product of a portal's edges points into the room:
+/// to the side whose surfaces it is for.
+struct Portals {
+    std::vector<Portal> all; ///< at most kMostPortals
+    double share = 0;        ///< of light samples to the sky that aim at them; in [0, 1)
+};
+
+/// The openings through which what the camera sees, and what is seen from there, sees the sky:
+/// rectangles in the planes of walls or in recesses behind them. Empty where that would gain
+/// little: where the scene lies open, where nothing sees the sky, or where the openings are many
+/// and small. Found by rays (feelers.hpp), the same ones in every render. Portals put no bias on a
+/// picture, whatever they are, so that they need not be exact.
+Portals findPortals(const WideLayout& bvh, const Camera& camera);
+
+/// Portals that were stated: as many as are used, turned to the side that the camera is on.
+Portals statedPortals(std::span<const Portal> portals, const Camera& camera);
+
+/// As the kernel reads them: PortalRows (shaders/shared/light_types.h).
+std::vector<Row> portalRows(std::span<const Portal> portals);
+
+} // namespace stromboli

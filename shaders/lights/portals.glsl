@@ -1,0 +1,125 @@
+// Light samples to the sky that aim at portals: rectangles through which a room sees it (docs/theory/estimator.md,
+// "Portals"). They share directions with samples by the sky's own density, by the balance heuristic.
+
+/// As seen from a point: `corner` is relative to it.
+struct SeenPortal {
+    uint index;
+    vec3 corner, edgeA, edgeB;
+    vec2 perSquare; ///< of the edges' lengths
+    float weight;   ///< with which it is chosen; 0: it does not shine on the surface
+};
+
+/// A bound of the solid angle that it takes up times one of the cosine at the surface. n: NOWHERE in a medium.
+SeenPortal seePortal(uint index, vec3 p, vec3 n) {
+    const uvec4 r0 = ROW(guideRows, PORTAL_ROWS * index), r1 = ROW(guideRows, PORTAL_ROWS * index + 1u),
+                r2 = ROW(guideRows, PORTAL_ROWS * index + 2u);
+    SeenPortal s;
+    s.index = index;
+    s.corner = uintBitsToFloat(r0.xyz) - p;
+    s.edgeA = uintBitsToFloat(r1.xyz);
+    s.edgeB = uintBitsToFloat(r2.xyz);
+    s.perSquare = uintBitsToFloat(uvec2(r1.w, r2.w));
+    const vec3 half_ = 0.5 * (s.edgeA + s.edgeB), middle = s.corner + half_;
+    const float inverse = inversesqrt(max(dot(middle, middle), TINY));
+    const float height = -dot(cross(s.edgeA, s.edgeB), middle);
+    const float angle = min(height * inverse * inverse * inverse, 2.0 * PI);
+    const float reach = sqrt(dot(half_, half_));
+    const float cosine = isNowhere(n) ? 1.0 : clamp((dot(n, middle) + reach) * inverse, 0.0, 1.0);
+    s.weight = max(angle, 0.0) * cosine;
+    return s;
+}
+
+bool isPassed(SeenPortal s, vec3 w) {
+    const vec3 normal = cross(s.edgeA, s.edgeB);
+    const float t = dot(s.corner, normal) / dot(w, normal);
+    const vec3 at = t * w - s.corner;
+    const vec2 place = vec2(dot(at, s.edgeA), dot(at, s.edgeB)) * s.perSquare;
+    return s.weight > 0.0 && dot(w, normal) < 0.0 && t > 0.0 && min(place.x, place.y) >= 0.0 && max(place.x, place.y) <= 1.0;
+}
+
+/// Chooses one of them by weight. u: a number in [0, 1); uniform again afterwards. weight 0: none shines on the surface.
+SeenPortal choosePortal(vec3 p, vec3 n, inout float u) {
+    SeenPortal chosen;
+    chosen.weight = 0.0;
+    float total = 0.0;
+    for (uint i = 0u; i < PORTALS; ++i) {
+        const SeenPortal s = seePortal(i, p, n);
+        total += s.weight;
+        const float part = s.weight / max(total, TINY);
+        const bool takes = u < part;
+        u = min(takes ? u / max(part, TINY) : (u - part) / max(1.0 - part, TINY), 1.0 - UNIT_ROUNDOFF);
+        if (takes) chosen = s;
+    }
+    return chosen;
+}
+
+/// How likely samples that aim at portals take a direction.
+struct PortalDensity {
+    uint portal;  ///< the first that the direction passes, to which it belongs; NO_PORTAL: none
+    float pdf;    ///< by solid angle
+    bool isAimed; ///< samples from here aim at any
+};
+const uint NO_PORTAL = 0xFFFFFFFFu;
+
+PortalDensity portalDensity(vec3 p, vec3 n, vec3 w) {
+    SeenPortal passed;
+    passed.index = NO_PORTAL;
+    passed.weight = 0.0;
+    float total = 0.0;
+    for (uint i = 0u; i < PORTALS; ++i) {
+        const SeenPortal s = seePortal(i, p, n);
+        total += s.weight;
+        if (passed.index == NO_PORTAL && isPassed(s, w)) passed = s;
+    }
+    PortalDensity d = PortalDensity(passed.index, 0.0, total > 0.0);
+    if (passed.index != NO_PORTAL) {
+        const float angle = triangleAngle(passed.corner, passed.edgeA, passed.edgeB) +
+                            triangleAngle(passed.corner + passed.edgeA + passed.edgeB, -passed.edgeA, -passed.edgeB);
+        d.pdf = passed.weight / max(total * angle, TINY);
+    }
+    return d;
+}
+
+/// A direction drawn by a portal, or none: then u is for the sky's own density.
+struct PortalSample {
+    bool isAimed;
+    uint portal;
+    vec3 direction; ///< unit
+};
+
+const PortalSample NOT_AIMED = PortalSample(false, 0u, vec3(0.0, 0.0, 1.0));
+
+PortalSample samplePortals(const Frame frame, vec3 p, vec3 n, inout vec2 u) {
+    const bool first = u.x < frame.portalShare;
+    float within = first ? u.x / frame.portalShare : 0.0;
+    const SeenPortal s = choosePortal(p, n, within);
+    PortalSample r = PortalSample(first && s.weight > 0.0, s.index, vec3(0.0, 0.0, 1.0));
+    if (r.isAimed) {
+        const vec3 normal = planeNormal(s.edgeA, s.edgeB), both = cross(s.edgeA, s.edgeB);
+        const SolidAngleSample a = sampleQuadByAngle(s.corner, s.edgeA, s.edgeB, dot(s.corner, normal), dot(both, normal), vec2(within, u.y));
+        r.direction = unit(s.corner + a.weights.x * s.edgeA + a.weights.y * s.edgeB);
+    } else if (s.weight > 0.0) {
+        u.x = min((u.x - frame.portalShare) / (1.0 - frame.portalShare), 1.0 - UNIT_ROUNDOFF);
+    }
+    return r;
+}
+
+/// The inverse of the density, by solid angle, of all samples to the sky in a direction. inverseOwnPdf: of those that do not
+/// aim at portals; 0: there are none.
+float skyInversePdf(const Frame frame, PortalDensity d, float inverseOwnPdf) {
+    const float share = d.isAimed ? frame.portalShare : 0.0;
+    const float ownPdf = inverseOwnPdf > 0.0 ? 1.0 / inverseOwnPdf : 0.0;
+    return 1.0 / max(mix(ownPdf, d.pdf, share), TINY);
+}
+
+/// A sample of the sky at a surface, in direction w. A direction that was drawn for one portal and belongs to another
+/// brings nothing: then the densities are those of directions that belong to each.
+LightSample skySample(const Frame frame, vec3 p, vec3 n, PortalSample aimed, vec3 w, vec3 radiance, float inverseOwnPdf) {
+    float inversePdf = inverseOwnPdf;
+    if (PORTALS > 0u) {
+        const PortalDensity d = portalDensity(p, n, w);
+        inversePdf = skyInversePdf(frame, d, inverseOwnPdf);
+        if (aimed.isAimed && d.portal != aimed.portal) inversePdf = 0.0;
+    }
+    return LightSample(w, true, w, radiance * inversePdf, inversePdf);
+}
