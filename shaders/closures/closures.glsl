@@ -18,7 +18,7 @@ bool sceneHasCoatNormals() {
 }
 
 /// Where light comes from, as a material sees it. wo: unit, in the frame of the shading normal, whose z axis
-/// is on the side of wo (under the CS184 convention on either); entering: wo is outside of what the
+/// is on the side of wo (without FACES_FORWARD on either); entering: wo is outside of what the
 /// surface bounds.
 struct Incidence {
     vec3 wo;

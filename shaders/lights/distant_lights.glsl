@@ -22,7 +22,7 @@ LightSample sampleAmbientLight(SurfacePoint s, LightRows rows, vec2 u) {
             r.inversePdf = 4.0 * PI;
         }
     } else {
-        r.direction = sampleAmbientCs184(u);
+        r.direction = sampleAmbientFromAbove(u);
         r.inversePdf = 2.0 * PI;
     }
     r.infinite = true;

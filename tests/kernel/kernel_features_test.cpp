@@ -1,5 +1,6 @@
 // What of the scene and the settings a kernel contains.
 #include "host/bvh/wide_layout.hpp"
+#include "host/cs184/cs184.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/kernel/light_table.hpp"
@@ -329,29 +330,53 @@ TEST(KernelFeatures, FollowTheTuning) {
     EXPECT_GE(f[SPEC_STACK_SIZE], 1u);
 }
 
-/// The kernel has two sets of shading conventions; a mixture is refused, not rendered as one of
-/// them.
-TEST(KernelFeatures, ConventionsAreOneSetOrTheOther) {
-    const auto constant = [](const ShadingConventions& conventions) {
-        RenderSettings s;
-        s.estimator.conventions = conventions;
-        return featuresOf(oneTriangle({}), s)[SPEC_CS184];
-    };
-    EXPECT_EQ(constant({}), 0u);
-    EXPECT_EQ(constant(cs184Shading()), 1u);
-    EXPECT_EQ(constant({.offsetsTerminator = false}), 0u) << "a constant of its own";
+/// Each rule of shading that the kernel follows has a bit of its own, so that any mixture is told
+/// apart; those of which lights are packed, and the terminator offset, are no business of it.
+TEST(KernelFeatures, EachConventionIsABit) {
     using C = ShadingConventions;
+    EXPECT_EQ(departures({}), 0u);
+    EXPECT_EQ(departures(cs184Shading()), 0xFFu);
+    uint32_t seen = 0;
     for (bool C::*member : {&C::facesForward, &C::testsGeometricSide, &C::exactFresnel,
                             &C::exactLambda, &C::compressesRadiance, &C::bouncesFindAllLight,
-                            &C::inverseSquareFalloff, &C::ambientAboutNormal, &C::samplesEmitters,
-                            &C::everyLightInTurn, &C::hemispherePerLight}) {
-        C one, allButOne = cs184Shading();
-        one.*member = cs184Shading().*member;
-        allButOne.*member = C{}.*member;
-        EXPECT_NE(one, C{});
-        EXPECT_THROW(constant(one), std::invalid_argument);
-        EXPECT_THROW(constant(allButOne), std::invalid_argument);
+                            &C::inverseSquareFalloff, &C::ambientAboutNormal}) {
+        C one;
+        one.*member = false;
+        const uint32_t bit = departures(one);
+        EXPECT_TRUE(std::has_single_bit(bit));
+        EXPECT_EQ(seen & bit, 0u);
+        seen |= bit;
     }
+    for (bool C::*member : {&C::offsetsTerminator, &C::samplesEmitters, &C::everyLightInTurn,
+                            &C::hemispherePerLight}) {
+        C one;
+        one.*member = !(one.*member);
+        EXPECT_EQ(departures(one), 0u);
+    }
+}
+
+/// Rules that the kernel does not follow together are refused, not rendered wrong.
+TEST(KernelFeatures, RulesOfLightGoTogether) {
+    using C = ShadingConventions;
+    const auto ofKernel = [](const C& conventions) {
+        RenderSettings s;
+        s.estimator.conventions = conventions;
+        return featuresOf(oneTriangle({}), s)[SPEC_DEPARTURES];
+    };
+    EXPECT_EQ(ofKernel(cs184Shading()), departures(cs184Shading()));
+    for (bool C::*member : {&C::samplesEmitters, &C::inverseSquareFalloff, &C::ambientAboutNormal,
+                            &C::hemispherePerLight}) {
+        C one;
+        one.*member = !(one.*member);
+        EXPECT_THROW(ofKernel(one), std::invalid_argument);
+    }
+    EXPECT_THROW(ofKernel({.bouncesFindAllLight = false, .samplesEmitters = false}),
+                 std::invalid_argument);
+    EXPECT_THROW(ofKernel({.bouncesFindAllLight = false, .inverseSquareFalloff = false}),
+                 std::invalid_argument);
+    const C rectangles = {
+        .bouncesFindAllLight = false, .samplesEmitters = false, .everyLightInTurn = true};
+    EXPECT_EQ(ofKernel(rectangles), departures(rectangles));
 }
 
 /// Which lights are packed, by the conventions that say so.
@@ -410,7 +435,7 @@ TEST(KernelFeatures, EverythingOn) {
     EXPECT_EQ(f[SPEC_CLOSURES_OF_ALL], 0u);
     EXPECT_EQ(f[SPEC_LIGHT_KINDS], (1u << gpu::LIGHT_KIND_COUNT) - 1);
     EXPECT_EQ(f[SPEC_ROULETTE], gpu::ROULETTE_NONE);
-    EXPECT_EQ(f[SPEC_CS184], 0u);
+    EXPECT_EQ(f[SPEC_DEPARTURES], 0u);
     EXPECT_EQ(f[SPEC_COUNT_STEPS], 0u);
 }
 

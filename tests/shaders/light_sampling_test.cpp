@@ -1,5 +1,6 @@
 // Samples of quads, meshes, ambient and delta lights: where they fall (chi-square, .01 for the
 // tests of this file together), what they weigh, and that the emitter does not shade itself.
+#include "host/cs184/cs184.hpp"
 #include "host/reference/lights.hpp"
 #include "tests/shaders/light_fixture.hpp"
 #include "tests/support/chi_square.hpp"
