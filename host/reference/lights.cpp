@@ -265,7 +265,8 @@ LightSample Lights::sampleAmbient(const Light& light, const SurfacePoint& surfac
 /// docs/theory/estimator.md.
 constexpr double kPointLightGap = 0x1p-16;
 
-LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const {
+LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface,
+                                RandomStream& /*random*/) const {
     const Light& light = *delta_[index];
     const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction));
     LightSample sample;

@@ -291,7 +291,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     const Closures c = closuresOf(m, i);
     const ClosureChoice choice = chooseClosure(m, c, u.xy);
     if (sceneHas(CLOSURE_BASE)) s.direction = sampleCosineHemisphere(choice.rest);
-    if (!sceneHas(CLOSURE_INTERFACE)) { // each is a base alone
+    if (!sceneHas(CLOSURE_INTERFACE) && !SAMPLES_CHOOSE) { // each is a base alone
         s.pdf = s.direction.z * INV_PI;
         s.weight = c.diffuse;
         return s;
@@ -312,6 +312,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     const bool transmits = choice.through || ofInterface && left.transmits;
     const bool isGlossy = (lobesOf(m) & GLOSSY_LOBES) != 0u;
     s.lobe = isGlossy ? (transmits ? LOBE_GLOSSY_TRANSMISSION : LOBE_GLOSSY_REFLECTION) : LOBE_DIFFUSE_REFLECTION;
+    if (HAS_THROUGH && choice.through && !isGlossy) s.lobe = LOBE_DIFFUSE_TRANSMISSION;
     const bool isPlane = sceneHas(INTERFACE_IS_SMOOTH) && ofInterface && c.isSmooth;
     if (isPlane) {
         s.lobe = transmits ? LOBE_DELTA_TRANSMISSION : LOBE_DELTA_REFLECTION;
@@ -327,7 +328,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
             if (HAS_FACETS && !ofInterface) h = normalBetween(c, alongGrain(c, c.wo), alongGrain(c, s.direction));
             const BsdfValue f = evaluateClosures(m, c, s.direction, h);
             s.pdf = f.pdf;
-            if (hasClosure(m, CLOSURE_INTERFACE)) s.weight = f.value / max(f.pdf, TINY);
+            if (hasClosure(m, CLOSURE_INTERFACE | CHOSEN_CLOSURES)) s.weight = f.value / max(f.pdf, TINY);
         }
     }
     // Below the surface that it should be above, or the other way round.
