@@ -152,6 +152,7 @@ std::deque<DeclaredCommand> declareCommands() {
         c.description = entry.description;
         c.group = entry.group;
         entry.declare(c);
+        c.list.sayChangedDefaults();
         c.list.makeCommon(wordsOf(entry.common));
         c.footer += c.footer.empty() ? "Examples:" : "\nExamples:";
         for (const std::string example : entry.examples) {

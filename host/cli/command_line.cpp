@@ -1,5 +1,6 @@
 #include "host/cli/command_line.hpp"
 
+#include "host/cli/cs184_options.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/presets.hpp"
 #include "host/cli/word_spelling.hpp"

@@ -110,8 +110,10 @@ CommandOption& CommandOption::required() {
     return *this;
 }
 
-CommandOption& CommandOption::changesDefaults() {
+CommandOption&
+CommandOption::changesDefaults(std::vector<std::pair<std::string, std::string>> words) {
     isFirst = true;
+    changedDefaults = std::move(words);
     return *this;
 }
 
@@ -288,6 +290,13 @@ void OptionList::makeCommon(const Words& names) {
         if (named == options_.end()) throw std::logic_error("no option is called " + name);
         named->common();
     }
+}
+
+void OptionList::sayChangedDefaults() {
+    for (const CommandOption& changing : options_)
+        for (const auto& [name, word] : changing.changedDefaults)
+            for (CommandOption& o : options_)
+                if (o.name() == name) o.usual += fmt::format("; {}: {}", changing.name(), word);
 }
 
 } // namespace stromboli

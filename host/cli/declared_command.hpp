@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stromboli {
@@ -98,8 +99,9 @@ class CommandOption {
     /// Says this flag too.
     CommandOption& implies(std::string option);
     CommandOption& required();
-    /// Changes the defaults of other options: is stored before them, wherever it stands.
-    CommandOption& changesDefaults();
+    /// Changes the defaults of other options, to these words of theirs as --help says them, where a
+    /// command has them: is stored before them, wherever it stands.
+    CommandOption& changesDefaults(std::vector<std::pair<std::string, std::string>> words = {});
     /// Has no effect on the picture: its notes leave it out.
     CommandOption& besidePicture();
     /// Is understood, but not listed by --help, the manual page and completion.
@@ -136,6 +138,7 @@ class CommandOption {
     bool isCommon = false, mayBeJoined = false, mayBeApart = false;
     std::vector<Conflict> conflicts;
     std::vector<std::string> needed, implied;
+    std::vector<std::pair<std::string, std::string>> changedDefaults; ///< option, its default then
     Proposed proposed = Proposed::Nothing;
     Words proposals;
     /// Understands the words and keeps what they say. Throws UsageError.
@@ -190,6 +193,9 @@ class OptionList {
     /// Makes options common (CommandOption::common), by any of their names. Throws std::logic_error
     /// for a name that none has.
     void makeCommon(const Words& names);
+    /// Once all are declared: has --help say which defaults change by other options
+    /// (CommandOption::changesDefaults).
+    void sayChangedDefaults();
 
   private:
     std::string group_;
@@ -303,7 +309,7 @@ void finishPicture(const DeclaredCommand& command, RenderRequest& picture, const
                    bool several = false);
 void declareSequence(OptionList& list, SequenceOptions& sequence);
 
-/// What the estimator is, and --cs184.
+/// What the estimator is, and whose conventions.
 void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked);
 void finishEstimator(DeclaredCommand& command, SceneAndPicture& work, const Asked& asked);
 

@@ -1,6 +1,6 @@
 // Options: what is estimated and how, how many samples, where they go and when it is enough; which
 // device takes them.
-#include "host/cli/declared_command.hpp"
+#include "host/cli/cs184_options.hpp"
 #include "host/core/error.hpp"
 #include "host/render/sampling_plan.hpp"
 
@@ -25,32 +25,15 @@ Roulette readRoulette(const std::string& word) {
         "--roulette is '{}': expected none, throughput or a probability in [0, 1)", word));
 }
 
-/// That renderer's conventions, each by its name, and its defaults. What is below the command line
-/// knows of the conventions and not of the option.
-void useCs184(SceneAndPicture& work, Asked& asked) {
-    RenderRequest& picture = work.picture;
-    work.scene.reading = cs184Conventions();
-    picture.framing = cs184Framing();
-    picture.estimator.conventions = cs184Shading();
-    work.tone.curve.kind = ToneCurve::Kind::Cs184;
-    picture.budget.adaptive.rule = Adaptive::Rule::PerChannel;
-
-    picture.estimator.maxBounces = 1;
-    picture.estimator.sampler = Sampler::Independent;
-    picture.estimator.roulette.mode = Roulette::Mode::None;
-    picture.branches = 1;
-    picture.budget.adaptive.enabled = true;
-    if (asked.makes == Makes::Pictures) asked.usualPaths = 1; // one sample checks nothing
-    asked.usuallySpread = false;
-}
-
 /// Which light a light sample takes is no question where each is sampled in turn, and without
 /// samples of emitters a question of lights that no direction meets.
-void remarkOnLightChoice(DeclaredCommand& c, const Estimator& e, BackendChoice backend) {
+void remarkOnLightChoice(DeclaredCommand& c, const Estimator& e, BackendChoice backend,
+                         const std::string& conventions) {
     if (!c.has("--light-choice") || e.integrator != Integrator::Path) return;
     std::vector<std::string>& remarks = c.host.remarks;
     if (e.conventions.everyLightInTurn)
-        remarks.emplace_back("--cs184 samples every light in turn: ignored: --light-choice");
+        remarks.push_back(
+            fmt::format("{} samples every light in turn: ignored: --light-choice", conventions));
     else if (backend == BackendChoice::Reference)
         remarks.emplace_back("the reference samples every light in turn: ignored: --light-choice");
     else if (!samplesLights(e.directLight))
@@ -77,7 +60,8 @@ void checkBranches(const RenderRequest& picture, const Asked& asked) {
         throw UsageError(fmt::format("-s {} is not a multiple of --branches {}", paths, branches));
     if (branches > 1 && budget.adaptive.enabled)
         throw UsageError(
-            "--branches does not go with -a, which counts paths and which --cs184 switches on");
+            "--branches does not go with -a, which counts paths and which other conventions may "
+            "switch on");
 }
 
 } // namespace
@@ -86,8 +70,7 @@ void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked) {
     Estimator& e = work.picture.estimator;
     list.group("Light");
     list.number("-m,--max-bounces", "N", "scatterings of light at most; 0: emission only",
-                e.maxBounces, kBounces)
-        .usually(fmt::format("{}; --cs184: 1", e.maxBounces));
+                e.maxBounces, kBounces);
     list.number("--min-bounce", "K",
                 "leave out light scattered fewer times; equal to -m: that bounce alone",
                 e.minBounce, kBounces);
@@ -103,7 +86,7 @@ void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked) {
                "none, throughput (from bounce 3 on), or a probability P of ending a path at every "
                "hit",
                1, [&e](const Words& words) { e.roulette = readRoulette(words[0]); })
-        .usually("throughput; --cs184: none")
+        .usually("throughput")
         .proposes({"none", "throughput"})
         .from("0 to 1, without 1");
     list.onOff("--gap-proposal",
@@ -113,22 +96,18 @@ void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked) {
     list.onOff("--terminator-offset",
                "on: meshes with normals of their own reflect light from the smooth surface that "
                "these describe; off: from their flat triangles, as most renderers have it",
-               e.conventions.offsetsTerminator)
-        .usually("on; --cs184: off");
+               e.conventions.offsetsTerminator);
     list.choice("--integrator", "KIND", "what a sample is", e.integrator);
-    list.flag("--cs184",
-              "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "
-              "adaptive sampling by default (docs/guide/cs184.md)",
-              [&work, &asked] { useCs184(work, asked); })
-        .changesDefaults();
+    declareCs184(list, work, asked);
 }
 
 void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& asked) {
     Estimator& e = work.picture.estimator;
     const BackendChoice backend = work.device.backend;
-    const bool isCs184 = c.has("--cs184");
-    work.picture.leftToFile = {.bounces = !c.has("-m") && !c.has("--min-bounce") && !isCs184,
-                               .filter = !c.has("--filter") && !isCs184,
+    const SceneConventions& reading = work.scene.reading;
+    const bool isUsual = reading.areDefault();
+    work.picture.leftToFile = {.bounces = !c.has("-m") && !c.has("--min-bounce") && isUsual,
+                               .filter = !c.has("--filter") && isUsual,
                                .integrator = !c.has("--integrator")};
     if (asked.accumulate && *asked.accumulate == 0) e.minBounce = e.maxBounces;
     const std::string moot =
@@ -140,7 +119,7 @@ void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& ask
     if (!moot.empty())
         c.host.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",
                                              nameOf(e.integrator), moot));
-    remarkOnLightChoice(c, e, backend);
+    remarkOnLightChoice(c, e, backend, reading.option);
     if (work.picture.guiding == Guiding::On && backend == BackendChoice::Reference)
         c.host.remarks.emplace_back("the reference guides no light samples: --guiding ignored");
     if (work.picture.guiding == Guiding::On && !samplesLights(e.directLight))
@@ -153,8 +132,8 @@ void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& ask
             fmt::format("--gap-proposal on needs lights that are sampled: not --direct {}",
                         nameOf(e.directLight)));
     if (e.conventions.offsetsTerminator && !e.conventions.facesForward)
-        throw UsageError(
-            "--terminator-offset on does not go with --cs184, whose surfaces are flat");
+        throw UsageError(fmt::format(
+            "--terminator-offset on does not go with {}, whose surfaces are flat", reading.option));
     if (e.minBounce > e.maxBounces)
         throw UsageError(fmt::format("--min-bounce {} is more than -m {}: no light is left",
                                      e.minBounce, e.maxBounces));
@@ -162,8 +141,7 @@ void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& ask
 
 void declareSampler(OptionList& list, Sampler& where) {
     list.group("Sampling");
-    list.choice("--sampler", "WHICH", "where random numbers come from", where)
-        .usually(fmt::format("{}; --cs184: independent", nameOf(where)));
+    list.choice("--sampler", "WHICH", "where random numbers come from", where);
 }
 
 void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
@@ -171,8 +149,7 @@ void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
     Estimator& e = picture.estimator;
     list.group("Sampling");
     list.number("-s,--samples", "N", samplesHelp, asked.paths, kSamples)
-        .usually(fmt::format("{}{}", asked.usualPaths,
-                             asked.makes == Makes::Pictures ? "; --cs184: 1" : ""));
+        .usually(fmt::format("{}", asked.usualPaths));
     declareSampler(list, e.sampler);
     list.choice("--filter", "WHICH", "how much places about a pixel count for it", e.filter);
     list.number("--seed", "N", "another seed, another noise", e.seed, kAnySeed);
@@ -184,8 +161,7 @@ void declareClamp(OptionList& list, RenderRequest& picture) {
               "limit what light brings at a time that was scattered twice or more to X in its "
               "brightest channel: fewer fireflies, but light is missing: the picture is biased",
               picture.estimator.indirectLimit, {1e-6, 1e30})
-        .usually("off")
-        .excludes("--cs184");
+        .usually("off");
 }
 
 void declareBranches(OptionList& list, RenderRequest& picture, const std::string& usually) {
@@ -238,7 +214,7 @@ void declareSpreading(OptionList& list, RenderRequest& picture, Asked& asked) {
                    a.tolerance = readReal("-a: TOLERANCE", words[1], kTolerance, kShares);
                })
         .from(fmt::format("{} and {}", inWords(kSamples), inWords(kTolerance)))
-        .usually(fmt::format("off; --cs184: {} {}", a.batch, a.tolerance))
+        .usually("off")
         .excludes("--even", kBothSpread);
     declareNoise(list,
                  "go on until the picture's noise, the square root of its relMSE, is at most T "
@@ -262,7 +238,7 @@ void declareSpreading(OptionList& list, RenderRequest& picture, Asked& asked) {
 void finishBudget(RenderRequest& picture, const Asked& asked) {
     PathBudget& b = picture.budget;
     b.mostPathsPerPixel = asked.paths.value_or(asked.usualPaths);
-    // --cs184 turns it on: for paths, where nothing else is asked for.
+    // Conventions may turn it on: for paths, where nothing else is asked for.
     if (picture.estimator.integrator != Integrator::Path || asked.even || b.stop.open())
         b.adaptive.enabled = false;
     if (asked.adaptive) b.adaptive.enabled = true;

@@ -59,7 +59,7 @@ std::vector<PathByBackend> explainSample(Renderer& renderer, const RenderOptions
         all.push_back({"reference", false, reference.retrace(taken)});
     else
         logging::info("the reference does not follow the kernel's paths through media or by "
-                      "--cs184; --backend reference shows paths of its own");
+                      "other conventions of shading; --backend reference shows paths of its own");
     return all;
 }
 

@@ -25,9 +25,9 @@ namespace stromboli {
 template <>
 inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<CameraChoice>>({
     {CameraChoice::Automatic, "auto",
-     "frame for the CS184 dialect and for files without a camera, else file"},
-    {CameraChoice::File, "file", "the file's camera, of several the first (--cs184: the last)"},
-    {CameraChoice::Frame, "frame", "all of the scene, as the CS184 renderer frames it"},
+     "frame for the dialect CGL and for files without a camera, else file"},
+    {CameraChoice::File, "file", "the file's camera, of several the first"},
+    {CameraChoice::Frame, "frame", "all of the scene"},
 });
 
 /// What every command is told.

@@ -179,8 +179,7 @@ void declareSeen(OptionList& list, RenderRequest& o) {
               "shadows, and the light that objects throw on it, are: in alpha, or on the "
               "--background",
               [&o] { o.shadowCatcher = kGroundName; })
-        .excludes("--share", "films have no place for it")
-        .excludes("--cs184");
+        .excludes("--share", "films have no place for it");
     list.words("--shadows-on", "NAME",
                "as --shadow-catcher, on this object of the scene, or on all that has this "
                "material, in place of a floor",
@@ -272,7 +271,7 @@ void declarePicture(OptionList& list, RenderRequest& picture, Asked& asked, bool
     list.words("--crop", "X Y W H", "only this part: left, top, width, height in pixels", 4,
                [&picture](const Words& words) { picture.crop = readCrop("--crop", words); })
         .from(placeAndSize);
-    list.words("--cell", "X Y W H", "the same with Y from the bottom (CS184's -p)", 4,
+    list.words("--cell", "X Y W H", "the same with Y from the bottom", 4,
                [&asked](const Words& words) { asked.cell = readCrop("--cell", words); })
         .from(placeAndSize)
         .excludes("--crop");

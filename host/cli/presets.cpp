@@ -93,7 +93,6 @@ void declarePreset(OptionList& list) {
                    if (!valueNamed<Preset>(words[0]))
                        refuseName("--preset", words[0], namesOf<Preset>(), allNames<Preset>());
                })
-        .excludes("--cs184")
         .proposes(namesOf<Preset>());
 }
 

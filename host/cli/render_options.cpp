@@ -315,7 +315,7 @@ void declareRender(DeclaredCommand& c) {
                 o->device.scheduler)
         .besidePicture();
     declareHost(c);
-    list.number("--accumulate", "N", "CS184's -o: 0 is --min-bounce equal to -m", asked->accumulate,
+    list.number("--accumulate", "N", "0 is --min-bounce equal to -m", asked->accumulate,
                 {0, 0xFFFFFFFFu})
         .excludes("--min-bounce", "both say which bounces are left out")
         .hidden();

@@ -119,8 +119,7 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     SceneConventions& reading = scene.reading;
     list.onOff("--default-light",
                "on: a plain sky lights a file without any light; off: it stays black",
-               reading.defaultLight)
-        .usually("on; --cs184: off");
+               reading.defaultLight);
     EnvironmentRequest& environment = scene.environment;
     list.words("--env", "FILE",
                "light from all around: an equirectangular picture (.hdr, .exr, ...), or a bundled "
@@ -133,24 +132,19 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
                    environment.constant = readRadiance(words[0]);
                    environment.file = environment.constant ? "" : words[0];
                })
-        .excludes("--cs184")
         .proposes(Proposed::Files);
     list.words("--sun", "AZIMUTH,ELEVATION",
                "light from a clear sky with its sun: degrees clockwise from -z as on a compass, "
                "seen from above, and above the horizon; a third number is the haze, 1 to 10 [3]",
                1, [&environment](const Words& words) { environment.sun = readSun(words[0]); })
-        .excludes("--env", "both are the light from all around")
-        .excludes("--cs184");
+        .excludes("--env", "both are the light from all around");
     list.words("--ground", "[COLOR]",
                "puts a wide diffuse floor under all there is: on (grey, also without COLOR), the "
                "share of light that it reflects, 0 to 1, or R,G,B",
                1, [&scene](const Words& words) { scene.ground = readGround(words[0]); })
-        .maybeWithout("on",
-                      [](const std::string& word) {
-                          return word == "on" ||
-                                 word.find_first_not_of("0123456789.,e-+") == std::string::npos;
-                      })
-        .excludes("--cs184");
+        .maybeWithout("on", [](const std::string& word) {
+            return word == "on" || word.find_first_not_of("0123456789.,e-+") == std::string::npos;
+        });
     list.real("--env-rotate", "DEGREES",
               "turns it, or the file's own one, about the vertical, counter-clockwise seen from "
               "above",
@@ -161,13 +155,11 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     list.list("--portal", "NAME",
               "objects, with commas between, that are no surfaces, but rectangles through which "
               "the sky is seen: light samples to it aim at them",
-              scene.portals)
-        .excludes("--cs184");
+              scene.portals);
     list.words("--fog", "DENSITY",
                "fills the scene with fog of that extinction per metre; DENSITY,R,G,B: of a colour; "
                "and ,G behind either: its light goes forwards (up to 0.9999) or back (-0.9999)",
-               1, [&scene](const Words& words) { scene.fog = readFog(words[0]); })
-        .excludes("--cs184");
+               1, [&scene](const Words& words) { scene.fog = readFog(words[0]); });
     FileSelection& selection = reading.selection;
     list.words("--scene", "N", "glTF: the scene of this number, from 0", 1,
                [&selection](const Words& words) {

@@ -37,8 +37,7 @@ uint32_t readBits(const std::string& word) {
 
 void declareToneMapping(OptionList& list, ToneMapping& tone, PictureEncoding& encoding) {
     list.group("Pictures for a screen: all but EXR");
-    list.choice("--view", "HOW", "how radiance becomes the light of a screen", tone.view)
-        .excludes("--cs184", "it has a tone curve of its own");
+    list.choice("--view", "HOW", "how radiance becomes the light of a screen", tone.view);
     list.words("--exposure", "EV",
                "radiance times 2^EV; auto: metered, so that the mean of the logarithms of what is "
                "neither background nor lamp is middle grey",

@@ -202,9 +202,10 @@ void declareView(DeclaredCommand& c) {
         finishPicture(c, o->picture, *asked);
         finishEstimator(c, *o, *asked);
         finishBudget(o->picture, *asked);
-        if (c.has("--cs184"))
-            throw UsageError("--cs184 has a tone curve of its own, which the page does not know: "
-                             "render has it");
+        if (o->tone.curve.kind != ToneCurve::Kind::Srgb)
+            throw UsageError(fmt::format("{} has a tone curve of its own, which the page does not "
+                                         "know: render has it",
+                                         o->scene.reading.option));
         static_cast<void>(view::toneOf({nameOf(o->viewTransform), o->exposure})); // throws
         o->device.threads = c.host.threads;
         o->command = {"stromboli render"};

@@ -5,9 +5,9 @@
 
 namespace stromboli {
 
-bool isWholeNumber(const std::string& s) {
-    return !s.empty() &&
-           std::all_of(s.begin(), s.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+bool isWholeNumber(const std::string& word) {
+    return !word.empty() && std::all_of(word.begin(), word.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 namespace {
@@ -90,20 +90,6 @@ Words withoutHelpCommand(const Words& words) {
     if (words.empty() || words.front() != "help") return words;
     if (words.size() == 1) return {"--help"};
     return {words[1], "--help"};
-}
-
-Words fromCs184Spelling(Words arguments) {
-    for (size_t i = 0; i < arguments.size(); ++i) {
-        std::string& a = arguments[i];
-        const bool numberFollows = i + 1 < arguments.size() && isWholeNumber(arguments[i + 1]);
-        if (a == "-f")
-            a = "-o";
-        else if (a == "-o" && numberFollows)
-            a = "--accumulate";
-        else if (a == "-p")
-            a = "--cell";
-    }
-    return arguments;
 }
 
 } // namespace stromboli

@@ -6,6 +6,7 @@ namespace stromboli {
 
 // Words of a command line that may be spelled in several ways, in the one that is parsed.
 
+/// Digits and nothing else.
 bool isWholeNumber(const std::string& word);
 
 /// Words of an option that are one ("-r 640x360"), several ("--focus 320 180") or missing ("--watch
@@ -14,10 +15,5 @@ Words inUsualSpelling(const OptionList& list, const Words& words);
 
 /// "help render" is "render --help", and "help" is "--help".
 Words withoutHelpCommand(const Words& words);
-
-/// Rewrites what the CS184 renderer spells differently: `-f FILE` is `-o FILE`, `-o N` with a
-/// whole number is `--accumulate N` (a picture's name has an extension, so they cannot be
-/// confused), `-p` is `--cell`.
-Words fromCs184Spelling(Words arguments);
 
 } // namespace stromboli

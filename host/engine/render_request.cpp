@@ -29,9 +29,8 @@ void reportCamera(const Scene& scene, const Camera& camera, const RenderRequest&
     const bool isChoice = request.camera.choice == CameraChoice::Automatic;
     const bool framed = isFramed(scene, request.camera, request.framing);
     if (framed && isChoice)
-        listener.info(fmt::format("framing the whole scene, as the CS184 renderer does, instead of "
-                                  "taking the file's {} (--camera file)",
-                                  name));
+        listener.info(fmt::format(
+            "framing the whole scene instead of taking the file's {} (--camera file)", name));
     const bool isNamed = !request.camera.name.empty() || request.camera.place;
     if (!framed && scene.cameras.size() > 1 && !isNamed)
         listener.info(fmt::format("{}, the {} of {} (--camera NAME for another; info lists them)",

@@ -44,7 +44,7 @@ size_t shownPixel(const Film& film, uint32_t x, uint32_t y, uint32_t coarsest);
 uint64_t unreachedPixels(const Film& film);
 
 /// Shows where the samples went, by q = samples taken / maximum: blue at 0, green at 1/2, red at
-/// 1, linear in between, truncated to 8 bits (docs/guide/cs184.md).
+/// 1, linear in between, truncated to 8 bits.
 ByteImage ratePicture(const Film& film, uint32_t maximum);
 
 /// Where the rate picture of a picture goes: `name.png` -> `name_rate.png`, beside it.

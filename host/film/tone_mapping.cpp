@@ -32,11 +32,11 @@ double linearFromSrgb(double signal) {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-double radianceFromCs184(uint8_t byte) {
+double radianceFromPower(uint8_t byte) {
     return std::pow((byte + 0.5) / 255, 2.2) / std::numbers::sqrt2;
 }
 
-static double cs184FromLinear(double linear) {
+static double powerFromLinear(double linear) {
     return unitInterval(std::pow(std::numbers::sqrt2 * linear, 1 / 2.2));
 }
 
@@ -44,7 +44,7 @@ uint8_t ToneCurve::toByte(double radiance) const {
     if (!(radiance > 0)) return 0;
     const double exposed = std::exp2(exposure) * radiance;
     if (kind == Kind::Srgb) return static_cast<uint8_t>(255 * srgbFromLinear(exposed) + 0.5);
-    return static_cast<uint8_t>(255 * cs184FromLinear(exposed));
+    return static_cast<uint8_t>(255 * powerFromLinear(exposed));
 }
 
 // --- From radiance to signals --------------------------------------------------------------------
@@ -113,9 +113,9 @@ SignalOfRadiance::SignalOfRadiance(const ToneMapping& tone)
 glm::dvec3 SignalOfRadiance::operator()(const glm::dvec3& radiance) const {
     const glm::dvec3 exposed = scale_ * (balance_ ? *balance_ * radiance : radiance);
     glm::dvec3 signals(0);
-    if (kind_ == ToneCurve::Kind::Cs184) {
+    if (kind_ == ToneCurve::Kind::Power) {
         for (int c = 0; c < 3; ++c)
-            signals[c] = exposed[c] > 0 ? cs184FromLinear(exposed[c]) : 0.0;
+            signals[c] = exposed[c] > 0 ? powerFromLinear(exposed[c]) : 0.0;
         return signals;
     }
     const glm::dvec3 light = displayLight(view_, exposed);

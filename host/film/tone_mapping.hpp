@@ -18,7 +18,7 @@ namespace stromboli {
 struct ToneCurve {
     enum class Kind {
         Srgb,  ///< IEC 61966-2-1 transfer curve, rounded to the nearest byte
-        Cs184, ///< floor(255 min(1, (sqrt(2) L)^(1 / 2.2))): the CS184 renderer's curve
+        Power, ///< floor(255 min(1, (sqrt(2) L)^(1 / 2.2)))
     };
 
     Kind kind = Kind::Srgb;
@@ -34,9 +34,9 @@ double srgbFromLinear(double linear);
 /// Inverse of srgbFromLinear: signal in [0, 1] to linear light; clamps its argument.
 double linearFromSrgb(double signal);
 
-/// The radiance in the middle of the interval that Cs184 (exposure 0) maps to `byte`, on the
+/// The radiance in the middle of the interval that Power (exposure 0) maps to `byte`, on the
 /// signal axis: ((byte + 1/2) / 255)^2.2 / sqrt(2).
-double radianceFromCs184(uint8_t byte);
+double radianceFromPower(uint8_t byte);
 
 // --- From radiance to signals --------------------------------------------------------------------
 
@@ -44,7 +44,7 @@ double radianceFromCs184(uint8_t byte);
 /// order (docs/guide/pictures.md).
 struct ToneMapping {
     ToneCurve curve;
-    View view = View::Standard; ///< of the sRGB curve; Cs184 has one of its own
+    View view = View::Standard; ///< of the sRGB curve; Power has one of its own
     /// The light that shows as white, in kelvin (white_balance.hpp); empty: colours stay as they
     /// are.
     std::optional<double> illuminant = {};

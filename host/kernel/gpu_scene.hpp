@@ -24,10 +24,10 @@ struct GpuScene {
     std::vector<Row> materials;
     DetailRows details; ///< attributes of corners, and texels
     LightTable lights;
-    Portals portals; ///< of the picture to come; packScene() leaves it empty
-    SceneClosures closures;                  ///< of the materials that primitives have
-    bool hasEmission = false;                ///< a primitive emits
-    bool hasBlends = false;                  ///< a primitive's material is a mixture
+    Portals portals;          ///< of the picture to come; packScene() leaves it empty
+    SceneClosures closures;   ///< of the materials that primitives have
+    bool hasEmission = false; ///< a primitive emits
+    bool hasBlends = false;   ///< a primitive's material is a mixture
     uint32_t mostOthers = 0, mostBlends = 0; ///< of MaterialRows
     bool hasBlackBacks = false;              ///< a primitive's material is black behind
     bool hasReliefRules = false;             ///< a primitive's material has MATERIAL_RELIEF_ bits

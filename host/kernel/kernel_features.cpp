@@ -56,6 +56,19 @@ bool combinesBouncesAndLightSamples(const Estimator& settings) {
     return combinesWithBounces(settings.directLight) && settings.conventions.bouncesFindAllLight;
 }
 
+/// Rules of light that go together. What bounces and light samples both find is shared by their
+/// densities, of which the kernel has those of the default rules; rectangles have no power by which
+/// they could be chosen; and of emissive geometry, samples are by solid angle.
+void checkConventions(const ShadingConventions& c) {
+    const bool isShared = c.samplesEmitters && c.ambientAboutNormal && !c.hemispherePerLight;
+    if (c.bouncesFindAllLight && !isShared)
+        throw std::invalid_argument("bounces find no light that is sampled by other conventions");
+    if (!c.samplesEmitters && !c.everyLightInTurn)
+        throw std::invalid_argument("rectangles are sampled where every light is, in turn");
+    if (!c.inverseSquareFalloff && c.samplesEmitters)
+        throw std::invalid_argument("emissive geometry falls off with the square of the distance");
+}
+
 /// Lobes from which MIS helps: where light samples and bounces find the same light, and either
 /// often finds it better (docs/theory/estimator.md, "MIS").
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
@@ -74,15 +87,6 @@ bool proposesGap(const GpuScene& scene, const Estimator& settings) {
     return settings.gapProposal && scene.gapWidth != 0 && scene.mostOthers == 0 &&
            samplesLights(settings.directLight) && settings.integrator == Integrator::Path &&
            settings.maxBounces > 1;
-}
-
-/// The shaders have two sets of conventions, told apart by one constant (include/cs184.glsl).
-/// The terminator offset is a constant by itself.
-uint32_t conventionsConstant(ShadingConventions conventions) {
-    if (conventions == cs184Shading()) return 1;
-    conventions.offsetsTerminator = true;
-    if (conventions == ShadingConventions{}) return 0;
-    throw std::invalid_argument("the kernel has no mixture of two sets of shading conventions");
 }
 
 uint32_t integratorConstant(Integrator integrator) {
@@ -162,6 +166,12 @@ uint32_t word(auto value) {
 
 } // namespace
 
+uint32_t departures(const ShadingConventions& conventions) {
+#define DEPARTURE(bit, member, name, otherwise) (conventions.member ? 0u : bit) |
+    return CONVENTION_LIST(DEPARTURE) 0u;
+#undef DEPARTURE
+}
+
 uint32_t lightChoiceConstant(const LightTable& lights) {
     if (lights.count == 1) return gpu::LIGHT_CHOICE_ONE;
     switch (lights.choice) {
@@ -181,6 +191,7 @@ uint32_t lightChoiceConstant(const LightTable& lights) {
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning) {
     using uint = uint32_t;
+    checkConventions(settings.conventions);
     const bool shades = settings.integrator == Integrator::Path;
     KernelFeatures f{};
     f[SPEC_WORKGROUP_SIZE] = tuning.workgroupSize;
@@ -293,6 +304,9 @@ const std::vector<const char*> kTextureSlots = {"base color",
 #define NAME_CLOSURE(name, bit, label) label,
 const std::vector<const char*> kClosures = {CLOSURE_LIST(NAME_CLOSURE)};
 #undef NAME_CLOSURE
+#define NAME_DEPARTURE(bit, member, name, otherwise) otherwise,
+const std::vector<const char*> kDepartures = {CONVENTION_LIST(NAME_DEPARTURE)};
+#undef NAME_DEPARTURE
 #define NAME_MEDIA(name, bit, label) label,
 const std::vector<const char*> kMedia = {MEDIA_LIST(NAME_MEDIA)};
 #undef NAME_MEDIA

@@ -17,8 +17,10 @@ namespace stromboli {
 using KernelFeatures = std::array<uint32_t, SPEC_COUNT>;
 
 /// Switches off all that the scene and the settings do not need; with tuning.everythingOn only
-/// what the settings do not need. Throws std::invalid_argument for shading conventions that are
-/// neither the default nor cs184Shading(): the shaders have no mixture of the two.
+/// what the settings do not need. Throws std::invalid_argument for conventions of light that
+/// the kernel does not follow together: bouncesFindAllLight where light is sampled by other
+/// conventions than the default's, rectangles (samplesEmitters is not set) without
+/// everyLightInTurn, and emissive geometry without inverseSquareFalloff.
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning);
 
@@ -39,6 +41,9 @@ bool aimsAtPortals(const GpuScene& scene, const Estimator& settings);
 /// Those of the kernel that records the path of a sample as it takes it.
 KernelFeatures recordingFeatures(const GpuScene& scene, const Camera& camera,
                                  const Estimator& settings, const DeviceTuning& tuning);
+
+/// The rules that do not hold, as bits of CONVENTION_LIST (shaders/shared/conventions.h).
+uint32_t departures(const ShadingConventions& conventions);
 
 /// The LIGHT_CHOICE_ that a kernel for these lights has.
 uint32_t lightChoiceConstant(const LightTable& lights);

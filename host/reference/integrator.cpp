@@ -318,7 +318,7 @@ void PathSample::addBroadLights() {
 
 void PathSample::addDeltaLights() {
     for (size_t light = 0; light < world_.lights.deltaCount(); ++light) {
-        const LightSample sample = world_.lights.sampleDelta(light, lit_);
+        const LightSample sample = world_.lights.sampleDelta(light, lit_, random_);
         const BsdfValue f = evaluateBsdf(surface_, sample.direction, world_.conventions);
         addLightSample(sample, f.value);
     }

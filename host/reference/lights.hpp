@@ -78,8 +78,9 @@ class Lights {
 
     /// index < broadCount(). The surface is faced forward.
     LightSample sampleBroad(size_t index, const SurfacePoint& surface, RandomStream& random) const;
-    /// index < deltaCount().
-    LightSample sampleDelta(size_t index, const SurfacePoint& surface) const;
+    /// index < deltaCount(). None of today's takes a random number; a kind that does is a matter of
+    /// lights.cpp alone.
+    LightSample sampleDelta(size_t index, const SurfacePoint& surface, RandomStream& random) const;
     /// What ambient lights and the environment send to a ray with this direction that hits nothing.
     glm::dvec3 ambientRadiance(const glm::dvec3& direction) const;
     /// What the camera sees where it sees nothing of the scene: the environment.

@@ -36,7 +36,7 @@ class ReferenceBackend final : public Backend, public Viewer, public PathRecorde
     RecordedPath record(uint32_t pixel, uint32_t sample) override;
     /// The path that the kernel has taken, with what its directions, densities and decisions meet
     /// and bring by the reference. Throws std::invalid_argument in scenes with media, and with
-    /// --cs184, whose rules it does not follow.
+    /// conventions of shading other than the default's, which it does not follow.
     RecordedPath retrace(const RecordedPath& taken) const;
     /// Whether retrace() can.
     bool mayRetrace() const;

@@ -77,7 +77,7 @@ void PathSample::retraceLight(const RecordedLight& taken) {
     }
     double closest = -1;
     for (size_t i = 0; taken.pdf == 0 && i < world_.lights.deltaCount(); ++i) {
-        const LightSample delta = world_.lights.sampleDelta(i, lit_);
+        const LightSample delta = world_.lights.sampleDelta(i, lit_, random_);
         const double cosine = glm::dot(delta.direction, taken.direction);
         if (delta.infinite != light.infinite || cosine < closest) continue;
         closest = cosine;

@@ -8,11 +8,9 @@ namespace stromboli {
 
 // --- Shading conventions -------------------------------------------------------------------------
 
-/// Rules of shading by which renderers differ (docs/guide/cs184.md, "CS184 mode", has the
-/// formulas). The default is what physics says. Code asks for a convention by its name and does not
-/// know whose it is. The names are those of shaders/include/cs184.glsl, which has those of surfaces
-/// and light; the kernel knows two sets only, the default and cs184Shading(), but for the
-/// terminator offset (host/kernel/kernel_features.hpp).
+/// Rules of shading by which renderers differ. The default is what physics says. Code asks for a
+/// convention by its name and does not know whose it is. Those of surfaces and light that the
+/// kernel's stages mind, but for the terminator offset, are rows of shaders/shared/conventions.h.
 struct ShadingConventions {
     // Surfaces.
 
@@ -60,22 +58,6 @@ struct ShadingConventions {
 
     bool operator==(const ShadingConventions&) const = default;
 };
-
-/// Those of the CS184 renderer (docs/guide/cs184.md).
-constexpr ShadingConventions cs184Shading() {
-    return {.facesForward = false,
-            .offsetsTerminator = false,
-            .testsGeometricSide = false,
-            .exactFresnel = false,
-            .exactLambda = false,
-            .compressesRadiance = false,
-            .bouncesFindAllLight = false,
-            .inverseSquareFalloff = false,
-            .ambientAboutNormal = false,
-            .samplesEmitters = false,
-            .everyLightInTurn = true,
-            .hemispherePerLight = true};
-}
 
 // --- The estimator -------------------------------------------------------------------------------
 

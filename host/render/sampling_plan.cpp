@@ -15,8 +15,8 @@ namespace {
 /// 97.5 % quantile of the normal distribution: half width of a 95 % interval in sigmas.
 constexpr double k95 = 1.96;
 
-/// The CS184 rule: each channel's 95 % interval within tolerance times its mean. A pixel whose
-/// samples are all black passes at once.
+/// Adaptive::Rule::PerChannel: each channel's 95 % interval within tolerance times its mean. A
+/// pixel whose samples are all black passes at once.
 bool everyChannelIsDone(const PixelStatistics& p, double tolerance) {
     const glm::dvec3 variance = p.varianceOfMean();
     for (int c = 0; c < 3; ++c)

@@ -19,7 +19,7 @@ constexpr uint32_t kMostSamples = 1u << 24;
 struct Adaptive {
     enum class Rule {
         Neighbourhood, ///< the luminance of a pixel and its neighbours (sampling_plan.hpp)
-        PerChannel,    ///< each channel of the pixel by itself, as the CS184 renderer does
+        PerChannel,    ///< each channel of the pixel by itself
     };
     bool enabled = false;
     Rule rule = Rule::Neighbourhood;

@@ -147,7 +147,4 @@ struct SceneConventions {
     bool areDefault() const { return renderer.empty(); }
 };
 
-/// Those of the CS184 renderer (docs/guide/cs184.md).
-SceneConventions cs184Conventions();
-
 } // namespace stromboli

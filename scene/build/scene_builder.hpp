@@ -39,7 +39,7 @@ class SceneBuilder {
     const SceneConventions& conventions() const { return conventions_; }
     Report& report() { return report_; }
 
-    /// The file has elements of the CS184 dialect (Scene::cglDialect).
+    /// The file has elements of the dialect CGL (Scene::cglDialect).
     void markCglDialect() { scene_.cglDialect = true; }
 
     /// Light from all around.

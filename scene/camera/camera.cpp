@@ -267,16 +267,6 @@ Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth)
     return camera;
 }
 
-FramingConventions cs184Framing() {
-    return {.pictureSize = PictureSize{800, 600},
-            .framesEveryScene = true,
-            .lastOfSeveral = true,
-            .directionWithoutCamera = {0, 0, 1},
-            .fillsPicture = false,
-            .clipsFramedViews = true,
-            .clipsAlongRay = true};
-}
-
 std::optional<size_t> chosenCamera(const Scene& scene, const CameraRequest& request,
                                    const FramingConventions& conventions) {
     const std::vector<FileCamera>& cameras = scene.cameras;

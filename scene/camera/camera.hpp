@@ -48,7 +48,7 @@ Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth)
 enum class CameraChoice {
     Automatic, ///< the file's camera; a CGL-dialect file, or one without a camera, is framed
     File,      ///< the file's camera
-    Frame,     ///< all of the scene (docs/guide/cs184.md)
+    Frame,     ///< all of the scene
 };
 
 /// What a lens makes sharp.
@@ -115,9 +115,6 @@ struct FramingConventions {
     bool clipsAlongRay = false; ///< Camera::clipAlongRay
 };
 
-/// Those of the CS184 renderer (docs/guide/cs184.md).
-FramingConventions cs184Framing();
-
 /// The place in Scene::cameras of the one that is meant; nothing if the file has none. Throws
 /// SceneError, with the names that there are, if it has none of the name asked for.
 std::optional<size_t> chosenCamera(const Scene& scene, const CameraRequest& request,
@@ -135,7 +132,8 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
 /// The camera for a picture of width x height pixels.
 /// File: the whole of the file's field of view is visible; where the picture's shape differs,
 /// it shows more on the longer side.
-/// Frame: as close as shows all of a scene without a camera; else docs/guide/cs184.md.
+/// Frame: as close as shows all of a scene without a camera; else 1.5 diagonals of its box away, in
+/// the direction in which FileCamera::pointAhead lies from the origin.
 /// Throws SceneError if the file's camera is wanted and there is none, or none of that name, if
 /// an orthographic camera is to have an angle of view or a lens, and if a focus is asked for where
 /// there is no lens, or of a pixel that shows nothing.

@@ -33,7 +33,7 @@ class Document {
 
     const Element& root() const { return *xml_.RootElement(); }
     size_t elementCount() const { return elementCount_; }
-    /// True if any element belongs to the CS184 dialect.
+    /// True if any element belongs to the dialect CGL.
     bool cglDialect() const { return cglDialect_; }
 
     /// The files that lie with it.

@@ -25,7 +25,7 @@ struct EffectMaterial {
     std::vector<EffectTexture> textures;
 };
 
-/// The material an <effect> describes: its CS184 dialect if it has one, else its profile_COMMON
+/// The material an <effect> describes: its dialect if it has one, else its profile_COMMON
 /// (constant, lambert, phong, blinn: diffuse reflection, emission, opacity and a coat; what else
 /// those models have is reported). Throws SceneError for values that make no sense.
 EffectMaterial readEffect(Context& context, Textures& textures, const Element& effect,

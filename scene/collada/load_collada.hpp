@@ -8,7 +8,7 @@
 
 namespace stromboli {
 
-/// Reads a COLLADA 1.4 or 1.5 file, with the CS184 dialect (profile CGL or CMU462): a document in
+/// Reads a COLLADA 1.4 or 1.5 file, with the dialect CGL (cgl_dialect.hpp): a document in
 /// UTF-8 or UTF-16, or an archive (.zae).
 /// Throws SceneError with file, line and element for anything it cannot make sense of.
 Scene loadCollada(const std::filesystem::path& file, const SceneConventions& conventions = {});

@@ -10,8 +10,8 @@ namespace stromboli {
 ///   pair in CGL files), the mesh is the emitter, with its own radiance and shape, and the
 ///   light is removed: the light is counted once.
 /// - Otherwise two triangles are added that emit on the side the light's normal points to.
-/// Each decision is a line in scene.report.warnings or .ignored. Not used by --cs184, whose
-/// renderer samples the rectangle and sees the mesh.
+/// Each decision is a line in scene.report.warnings or .ignored. Not used by conventions
+/// where area lights stay lights (AreaLights::StayLights): the rectangle is sampled, the mesh seen.
 void resolveAreaLights(Scene& scene);
 
 } // namespace stromboli

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scene/model/environment.hpp"
-#include "scene/model/portal.hpp"
 #include "scene/model/light.hpp"
 #include "scene/model/material.hpp"
+#include "scene/model/portal.hpp"
 #include "scene/model/render_hints.hpp"
 #include "scene/model/texture.hpp"
 
@@ -93,7 +93,7 @@ struct FileCamera {
     double lensRadius = 0, focusDistance = 1;
     uint32_t medium = kNoMedium; ///< around the camera: into Scene::media
     /// On the view axis, one of the file's units in front of the position. A camera that frames the
-    /// scene (docs/guide/cs184.md) looks at it from the direction in which this lies from the
+    /// scene looks at it from the direction in which this lies from the
     /// origin.
     glm::dvec3 pointAhead{0, 0, -1};
 };
@@ -149,7 +149,8 @@ struct Scene {
     /// first animation in seconds, 0 without one.
     std::vector<std::string> variants;
     double animationSeconds = 0;
-    bool cglDialect = false; ///< the file has elements of the CS184 dialect (profile CGL, CMU462)
+    bool cglDialect =
+        false; ///< the file has elements of the dialect CGL (scene/collada/cgl_dialect.hpp)
     RenderHints hints;
     LoadReport report;
 

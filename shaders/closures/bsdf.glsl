@@ -1,7 +1,7 @@
-// How surfaces scatter light: what the integrator, light sampling and MIS know of it. They ask for values, densities
-// and lobes, never for what a material is made of. A material is a short list of closures: a recipe says which, with
-// what weights as one direction sees them (closures.glsl); here all are evaluated together, and sampled by choosing
-// one. docs/theory/estimator.md has the formulas, docs/architecture.md says how to add a closure.
+// How materials scatter light. A material is a short list of closures: a recipe says which, with what weights as one
+// direction sees them (closures.glsl); here all are evaluated together, and sampled by choosing one. The integrator, light
+// sampling and MIS ask for values, densities and lobes (surface_bsdf.glsl), never for what a material is made of.
+// docs/theory/surfaces.md has the formulas, docs/theory/extending.md says how to add a closure.
 
 /// Value and density of a BSDF for one pair of directions; both 0 where nothing scatters.
 struct BsdfValue {
@@ -291,7 +291,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     const Closures c = closuresOf(m, i);
     const ClosureChoice choice = chooseClosure(m, c, u.xy);
     if (sceneHas(CLOSURE_BASE)) s.direction = sampleCosineHemisphere(choice.rest);
-    if (!sceneHas(CLOSURE_INTERFACE)) { // each is a base alone
+    if (!sceneHas(CLOSURE_INTERFACE) && !SAMPLES_CHOOSE) { // each is a base alone
         s.pdf = s.direction.z * INV_PI;
         s.weight = c.diffuse;
         return s;
@@ -312,6 +312,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     const bool transmits = choice.through || ofInterface && left.transmits;
     const bool isGlossy = (lobesOf(m) & GLOSSY_LOBES) != 0u;
     s.lobe = isGlossy ? (transmits ? LOBE_GLOSSY_TRANSMISSION : LOBE_GLOSSY_REFLECTION) : LOBE_DIFFUSE_REFLECTION;
+    if (HAS_THROUGH && choice.through && !isGlossy) s.lobe = LOBE_DIFFUSE_TRANSMISSION;
     const bool isPlane = sceneHas(INTERFACE_IS_SMOOTH) && ofInterface && c.isSmooth;
     if (isPlane) {
         s.lobe = transmits ? LOBE_DELTA_TRANSMISSION : LOBE_DELTA_REFLECTION;
@@ -327,7 +328,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
             if (HAS_FACETS && !ofInterface) h = normalBetween(c, alongGrain(c, c.wo), alongGrain(c, s.direction));
             const BsdfValue f = evaluateClosures(m, c, s.direction, h);
             s.pdf = f.pdf;
-            if (hasClosure(m, CLOSURE_INTERFACE)) s.weight = f.value / max(f.pdf, TINY);
+            if (hasClosure(m, CLOSURE_INTERFACE | CHOSEN_CLOSURES)) s.weight = f.value / max(f.pdf, TINY);
         }
     }
     // Below the surface that it should be above, or the other way round.
@@ -338,85 +339,4 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     return s;
 }
 
-// --- What others ask ------------------------------------------------------------------------------
-
-/// Whether light samples can find light that the surface scatters.
-bool scattersIntoManyDirections(uint lobes) { return (lobes & ~DELTA_LOBES) != 0u; }
-
-/// Whether sampleBsdf() takes all three numbers; else either the first two or the last one.
-bool takesThreeNumbers(uint lobes) { return sceneHas(LOBE_GLOSSY_TRANSMISSION) && (lobes & LOBE_GLOSSY_TRANSMISSION) != 0u; }
-
-/// Whether two paths that arrive by the same ray may leave by different ones.
-bool scattersAtRandom(uint lobes) {
-    return lobes != LOBE_DELTA_REFLECTION && lobes != LOBE_DELTA_TRANSMISSION;
-}
-
-Incidence incidenceOn(SurfacePoint s, ShadingFrame frame_) {
-    const vec3 wo = toLocal(frame_, s.wo);
-    const vec3 coat = sceneHasCoatNormals() ? toLocal(frame_, s.coat) : vec3(0.0, 0.0, 1.0);
-    return Incidence(wo, entersWhatItBounds(s.outside, wo), coat);
-}
-
-/// Light stays on the side of the true surface that its lobe sends it to.
-bool isOnItsSide(SurfacePoint s, vec3 wi, bool transmitted) {
-    if (!TESTS_GEOMETRIC_SIDE) return true;
-    return transmitted ? dot(s.geometric, wi) < 0.0 : isReflected(s, wi);
-}
-
-/// What the bumps of a surface let through of light from wi, or none where wi is over the surface but below the horizon
-/// of its mapped normal, or the other way round: as a surface of facets whose roughness alpha^2 is an eighth of the
-/// squared tangent of the normal's tilt, 1 at most, would mask it (Conty Estevez, Lecocq and Stein 2019, "A
-/// Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem"): 2 / (1 + sqrt(1 + alpha^2 tan^2)), times
-/// |cos| above and below, as light may graze.
-float reliefShadow(Material m, SurfacePoint s, vec3 wi) {
-    const uint rules = reliefRules(m);
-    if (rules == 0u) return 1.0;
-    const vec3 n = unmappedNormal(s), mapped = shadingNormal(s);
-    const float c = dot(n, wi), tilt = dot(n, mapped);
-    if (c * dot(mapped, wi) <= 0.0) return 0.0;
-    if ((rules & MATERIAL_RELIEF_SHADOWS) == 0u) return 1.0;
-    const float c2 = c * c, tilt2 = tilt * tilt;
-    const float alpha2 = min(0.125 * max(1.0 - tilt2, 0.0) / max(tilt2, TINY), 1.0);
-    return 2.0 * abs(c) / (abs(c) + sqrt(c2 + alpha2 * max(1.0 - c2, 0.0)));
-}
-
-BsdfValue evaluateOnSurface(Material m, SurfacePoint s, vec3 wi) {
-    const ShadingFrame frame_ = shadingFrame(s);
-    const vec3 local = toLocal(frame_, wi);
-    const bool transmitted = local.z < 0.0;
-    const bool possible =
-        (transmitted ? (lobesOf(m) & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
-        isOnItsSide(s, wi, transmitted);
-    if (!possible) return NO_SCATTERING;
-    BsdfValue f = evaluateLocally(m, incidenceOn(s, frame_), local);
-    if (RELIEF_RULES) f.value *= reliefShadow(m, s, wi);
-    return f;
-}
-
-/// f |cos| and the density for the unit world direction wi, of all lobes but delta ones; of a medium, the phase function.
-/// s: faced forward.
-BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
-    BsdfValue f = evaluateOnSurface(m, s, wi);
-    if (HAS_PHASES && isPhase(m)) f = evaluatePhase(m, s.wo, wi);
-    return f;
-}
-
-BsdfSample sampleOnSurface(Material m, SurfacePoint s, vec3 u) {
-    const ShadingFrame frame_ = shadingFrame(s);
-    BsdfSample b = sampleLocally(m, incidenceOn(s, frame_), u);
-    b.direction = toWorld(frame_, b.direction);
-    // Mirrored and refracted directions keep the length of wo but for rounding, which would add up
-    // along a path.
-    if ((b.lobe & DIFFUSE_LOBES) == 0u) b.direction = unit(b.direction);
-    if (!isOnItsSide(s, b.direction, isTransmission(b.lobe))) b.weight = vec3(0.0);
-    if (RELIEF_RULES) b.weight *= reliefShadow(m, s, b.direction);
-    return b;
-}
-
-/// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
-/// a lobe, z for the choice of one of several lobes. s: faced forward.
-BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
-    BsdfSample b = sampleOnSurface(m, s, u);
-    if (HAS_PHASES && isPhase(m)) b = samplePhase(m, s.wo, u.xy);
-    return b;
-}
+#include "closures/surface_bsdf.glsl"

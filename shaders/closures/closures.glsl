@@ -9,8 +9,10 @@ const bool HAS_COAT = (CLOSURES & (CLOSURE_COAT)) != 0u;
 /// Whether some base scatters to the other side in glTF's model.
 const bool HAS_THROUGH = (CLOSURES & (LOBE_DIFFUSE_TRANSMISSION)) != 0u;
 const bool HAS_SHEEN = (CLOSURES & (CLOSURE_SHEEN)) != 0u;
-/// Whether samples choose between closures of one material.
-const bool SAMPLES_CHOOSE = (CLOSURES & (CLOSURE_LAYERS | RECIPE_PRINCIPLED | RECIPE_BURLEY)) != 0u;
+/// Bits of materials of which samples choose one of several closures.
+const uint CHOSEN_CLOSURES = CLOSURE_LAYERS | CLOSURE_COAT | CLOSURE_SHEEN | LOBE_DIFFUSE_TRANSMISSION |
+                             RECIPE_PRINCIPLED | RECIPE_BURLEY;
+const bool SAMPLES_CHOOSE = (CLOSURES & (CHOSEN_CLOSURES)) != 0u;
 /// Whether coats of some materials have normals of their own: DETAIL_COAT_HAS_NORMAL.
 bool sceneHasCoatNormals() {
     const uint maps = 1u << TEXTURE_NORMAL | 1u << TEXTURE_CLEARCOAT_NORMAL;
@@ -18,7 +20,7 @@ bool sceneHasCoatNormals() {
 }
 
 /// Where light comes from, as a material sees it. wo: unit, in the frame of the shading normal, whose z axis
-/// is on the side of wo (under the CS184 convention on either); entering: wo is outside of what the
+/// is on the side of wo (without FACES_FORWARD on either); entering: wo is outside of what the
 /// surface bounds.
 struct Incidence {
     vec3 wo;

@@ -37,7 +37,7 @@ InterfaceLight statedLight(Material m, StatedParameters p, Closures c, float cos
     if (hasClosure(m, INTERFACE_IS_DIELECTRIC)) {
         float share = exact;
         if (!EXACT_FRESNEL && c.isSmooth && cosTransmitted > 0.0 && transmits)
-            share = schlickCs184(cosine, p.index[INDEX_RATIO]);
+            share = schlickFresnel(cosine, p.index[INDEX_RATIO]);
         // A sheet, with all that is reflected between its sides: R + (1 - R)^2 R / (1 - R^2).
         if (c.isThin) share = 2.0 * exact / (1.0 + exact);
         if (hasClosure(m, INTERFACE_IS_IDEAL)) share = cosTransmitted > 0.0 ? 0.0 : 1.0;
@@ -46,6 +46,6 @@ InterfaceLight statedLight(Material m, StatedParameters p, Closures c, float cos
     }
     if (hasClosure(m, INTERFACE_IS_CONDUCTOR))
         f.reflected = p.color * (EXACT_FRESNEL ? fresnelConductor(cosine, p.edge, p.index)
-                                               : fresnelConductorCs184(abs(cosI), p.edge, p.index));
+                                               : approximateFresnelConductor(abs(cosI), p.edge, p.index));
     return f;
 }

@@ -28,7 +28,7 @@ uint firstPlace() { return gl_WorkGroupID.x >> 31; }
 #include "include/camera.glsl"
 #include "include/warps.glsl"
 #include "include/pixel_filter.glsl"
-#include "include/cs184.glsl"
+#include "include/conventions.glsl"
 #include "include/surface.glsl"
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"

@@ -176,7 +176,7 @@ SurfacePoint surfaceAt(Traversal t) {
 /// Whether a surface, its normals as stored, is seen from where its shading normals do not point.
 bool isSeenFromBehind(SurfacePoint s) { return s.outside == (dot(s.geometric, shadingNormal(s)) < 0.0); }
 
-/// Two-sided shading: both normals on the side of wo. The CS184 renderer never flips one.
+/// Two-sided shading: both normals on the side of wo.
 void faceForward(inout SurfacePoint s) {
     if (!FACES_FORWARD) return;
     if (!s.outside) s.geometric = -s.geometric;
@@ -212,8 +212,8 @@ vec3 litPoint(SurfacePoint s) {
 }
 
 /// Where a ray starts that leaves s towards w: on the side of wo, or, transmitted, on the other one.
-/// Refracted light leaves from the triangle itself, which lies in its way otherwise. The CS184
-/// renderer lets light leave on either side whatever the material.
+/// Refracted light leaves from the triangle itself, which lies in its way otherwise. Where
+/// normals stay as they are stored, light leaves on either side whatever the material.
 vec3 leave(SurfacePoint s, vec3 w, bool transmitted) {
     if (!FACES_FORWARD) return offsetOrigin(s.position, s.error, s.geometric, w);
     const vec3 from = transmitted ? s.position : litPoint(s);

@@ -21,7 +21,7 @@ LightSample sampleAmbientLight(const Frame frame, SurfacePoint s, LightRows rows
     vec3 w = aimed.direction;
     float inversePdf = 1.0 / max(ambientPdf(n, w), TINY);
     if (!AMBIENT_ABOUT_NORMAL) {
-        w = sampleAmbientCs184(u);
+        w = sampleAmbientFromAbove(u);
         inversePdf = 2.0 * PI;
     } else if (!aimed.isAimed) {
         const vec3 local = sampleCosineHemisphere(u);

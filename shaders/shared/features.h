@@ -4,6 +4,7 @@
 #ifndef STROMBOLI_SHARED_FEATURES_H
 #define STROMBOLI_SHARED_FEATURES_H
 
+#include "conventions.h"
 #include "language.h"
 
 /// The size of the workgroup; GLSL names it in a layout only.
@@ -139,8 +140,8 @@
         "negative in places, samples have weights"}), "how samples are spread about a pixel") \
     F(42, float, FILTER_EXTRA, 0.0, settings.filterShape.width - 1, own, \
       "filter wider by", share, "Gaussian and tent filters of another width") \
-    F(14, bool, CS184, false, conventionsConstant(settings.conventions), own, \
-      "CS184 conventions", flag, "the shading conventions of the CS184 renderer") \
+    F(14, uint, DEPARTURES, 0u, departures(settings.conventions), own, \
+      "other conventions of shading", bits(kDepartures), "rules of shading that are not those of physics") \
     F(48, bool, FLAT_TERMINATOR, false, scene.hasNormals && settings.conventions.facesForward && \
         !settings.conventions.offsetsTerminator, own, \
       "no terminator offset", flag, "light that smooth meshes reflect from their flat triangles") \

@@ -112,7 +112,7 @@ SHARED_FUNCTION uint closuresWithRow(uint row) {
 
 /// F(slot, recipe, name, factor): a texture in the slot TEXTURE_slot multiplies that parameter by what its texel has for
 /// it. Base colours are in all recipes' first place, and multiplied there. The reference has its own list
-/// (host/reference/surface.cpp).
+/// (host/reference/surface_textures.cpp).
 #define TEXTURED_PARAMETERS(F) \
     F(METALLIC_ROUGHNESS, Stated, alphaX, texel.g) \
     F(METALLIC_ROUGHNESS, Stated, alphaY, texel.b) \

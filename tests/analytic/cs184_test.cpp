@@ -1,5 +1,6 @@
 // The CS184 renderer's conventions of shading: each deviation from the physical rules, by its
 // closed form. What the loader resolves (attenuation, spot lights) is in tests/scene.
+#include "host/cs184/cs184.hpp"
 #include "tests/analytic/scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,10 @@
 // What the command line means.
 #include "host/cli/command_line.hpp"
+#include "host/cli/cs184_options.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/options.hpp"
-#include "host/cli/word_spelling.hpp"
 #include "host/core/error.hpp"
+#include "host/cs184/cs184.hpp"
 #include "tests/cli/parse.hpp"
 
 #include <gtest/gtest.h>
@@ -213,7 +214,7 @@ TEST(Options, Cs184IsResolvedIntoConventions) {
     EXPECT_TRUE(o.picture.framing.pictureSize && o.picture.framing.framesEveryScene &&
                 o.picture.framing.clipsAlongRay);
     EXPECT_EQ(o.picture.estimator.conventions, cs184Shading());
-    EXPECT_EQ(o.tone.curve.kind, ToneCurve::Kind::Cs184);
+    EXPECT_EQ(o.tone.curve.kind, ToneCurve::Kind::Power);
     EXPECT_EQ(o.picture.budget.adaptive.rule, Adaptive::Rule::PerChannel);
     EXPECT_EQ(o.picture.branches, 1u);
     // Its pixels have as many samples each, where the adaptive rule has nothing to look at too.

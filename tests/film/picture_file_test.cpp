@@ -34,7 +34,7 @@ TEST(Png, SaysSrgbOnlyForTheSrgbCurve) {
     const TemporaryFolder folder;
     const Film film = randomFilm(2, 2);
     writePicture(folder / "a.png", film, {});
-    writePicture(folder / "b.png", film, {{ToneCurve::Kind::Cs184}});
+    writePicture(folder / "b.png", film, {{ToneCurve::Kind::Power}});
     EXPECT_THAT(contentOf(folder / "a.png"), testing::HasSubstr("sRGB"));
     for (const char* chunk : {"sRGB", "gAMA", "cHRM", "iCCP"})
         EXPECT_THAT(contentOf(folder / "b.png"), testing::Not(testing::HasSubstr(chunk)));
@@ -44,7 +44,7 @@ TEST(Png, HoldsTheToneMappedMeans) {
     const TemporaryFolder folder;
     const Film film = randomFilm(5, 4);
     for (const ToneCurve& tone :
-         {ToneCurve{}, ToneCurve{ToneCurve::Kind::Srgb, 1.5}, ToneCurve{ToneCurve::Kind::Cs184}}) {
+         {ToneCurve{}, ToneCurve{ToneCurve::Kind::Srgb, 1.5}, ToneCurve{ToneCurve::Kind::Power}}) {
         writePicture(folder / "a.PNG", film, {tone});
         const ByteImage image = readPng(folder / "a.PNG");
         for (uint32_t y = 0; y < 4; ++y)

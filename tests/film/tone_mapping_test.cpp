@@ -36,7 +36,7 @@ FloatImage randomRadiance(uint32_t width, uint32_t height) {
 TEST(ToneMapping, OfTheCurveAloneIsTheCurve) {
     const FloatImage radiance = randomRadiance(64, 16);
     for (const ToneCurve& curve :
-         {ToneCurve{}, ToneCurve{ToneCurve::Kind::Srgb, -1.3}, ToneCurve{ToneCurve::Kind::Cs184}}) {
+         {ToneCurve{}, ToneCurve{ToneCurve::Kind::Srgb, -1.3}, ToneCurve{ToneCurve::Kind::Power}}) {
         const ByteImage image = toneMap<uint8_t>(radiance, {curve}, false);
         for (size_t i = 0; i < 64 * 16; ++i)
             for (size_t c = 0; c < 3; ++c)

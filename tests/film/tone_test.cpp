@@ -10,7 +10,7 @@ namespace stromboli {
 namespace {
 
 constexpr ToneCurve kSrgb{};
-constexpr ToneCurve kCs184{ToneCurve::Kind::Cs184};
+constexpr ToneCurve kPower{ToneCurve::Kind::Power};
 
 /// IEC 61966-2-1, written down once more in extended precision.
 long double standardSrgb(long double linear) {
@@ -57,30 +57,30 @@ TEST(Exposure, OneStopDoubles) {
     }
 }
 
-TEST(Cs184Curve, IsTheTruncatedPower) {
+TEST(PowerCurve, IsTheTruncatedPower) {
     for (int i = 0; i <= 100'000; ++i) {
         const double radiance = std::pow(i / 100'000.0, 3);
         const long double exact = 255 * std::min(1.0L, powl(sqrtl(2.0L) * radiance, 1 / 2.2L));
-        const int byte = kCs184.toByte(radiance);
+        const int byte = kPower.toByte(radiance);
         EXPECT_LE(byte, double(exact) + 1e-12) << radiance;
         EXPECT_GT(byte + 1, double(exact) - 1e-12) << radiance;
     }
 }
 
-TEST(Cs184Curve, KnownValues) {
-    EXPECT_EQ(kCs184.toByte(0), 0);
-    EXPECT_EQ(kCs184.toByte(0.7072), 255); // saturates at sqrt(1/2)
-    EXPECT_EQ(kCs184.toByte(0.7071), 254);
-    EXPECT_EQ(kCs184.toByte(0.1), 104); // 104.81, not rounded
+TEST(PowerCurve, KnownValues) {
+    EXPECT_EQ(kPower.toByte(0), 0);
+    EXPECT_EQ(kPower.toByte(0.7072), 255); // saturates at sqrt(1/2)
+    EXPECT_EQ(kPower.toByte(0.7071), 254);
+    EXPECT_EQ(kPower.toByte(0.1), 104); // 104.81, not rounded
 }
 
-TEST(Cs184Curve, InverseTakesEveryByteBack) {
+TEST(PowerCurve, InverseTakesEveryByteBack) {
     for (int byte = 0; byte < 256; ++byte)
-        EXPECT_EQ(kCs184.toByte(radianceFromCs184(static_cast<uint8_t>(byte))), byte);
+        EXPECT_EQ(kPower.toByte(radianceFromPower(static_cast<uint8_t>(byte))), byte);
 }
 
 TEST(ToneCurves, ClampWhatIsNotInRange) {
-    for (const ToneCurve& curve : {kSrgb, kCs184}) {
+    for (const ToneCurve& curve : {kSrgb, kPower}) {
         EXPECT_EQ(curve.toByte(1e30), 255);
         EXPECT_EQ(curve.toByte(std::numeric_limits<double>::infinity()), 255);
         EXPECT_EQ(curve.toByte(-0.5), 0);

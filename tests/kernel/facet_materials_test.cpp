@@ -1,5 +1,6 @@
 // Conductors, rough and thin dielectrics and plastic as the kernel gets them: which closures
 // they are, and the numbers that plastic is made of.
+#include "host/kernel/facet_terms.hpp"
 #include "host/kernel/material_rows.hpp"
 
 #include <gtest/gtest.h>

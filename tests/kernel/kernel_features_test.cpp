@@ -1,32 +1,14 @@
 // What of the scene and the settings a kernel contains.
-#include "host/bvh/wide_layout.hpp"
-#include "host/kernel/kernel_features.hpp"
-#include "host/kernel/kernel_tuning.hpp"
-#include "host/kernel/light_table.hpp"
 #include "shaders/shared/texture_types.h"
+#include "tests/kernel/scene_features.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
-
 namespace stromboli {
 namespace {
 
-Scene oneTriangle(const Material& material) {
-    Scene scene;
-    scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    scene.triangles.push_back({{0, 1, 2}});
-    scene.materials = {material};
-    scene.instances = {"triangle"};
-    return scene;
-}
-
-KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {},
-                          const DeviceTuning& tuning = {}) {
-    return kernelFeatures(packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator)),
-                          Camera{}, settings.estimator, tuning);
-}
+using namespace test;
 
 TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
     Scene scene = oneTriangle({});
@@ -51,151 +33,6 @@ TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
     EXPECT_TRUE(f[SPEC_HAS_SPHERES]);
     EXPECT_EQ(f[SPEC_CLOSURES], kDiffuse | closureBits(unused));
     EXPECT_EQ(f[SPEC_CLOSURES_OF_ALL], gpu::INTERFACE_IS_SMOOTH | gpu::INTERFACE_IS_DIELECTRIC);
-}
-
-TEST(KernelFeatures, LightsFollowTheSettings) {
-    Material emitter;
-    emitter.emission = glm::vec3(1);
-    Scene scene = oneTriangle(emitter);
-    Light point;
-    scene.lights.push_back(point);
-    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_KINDS],
-              (1u << gpu::LIGHT_TRIANGLE) | (1u << gpu::LIGHT_POINT));
-    RenderSettings s;
-    s.estimator.directLight = DirectLight::Bsdf;
-    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 1u << gpu::LIGHT_POINT);
-    s.estimator.integrator = Integrator::Normals;
-    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 0u);
-}
-
-/// A kernel that sees has the surfaces of the one that takes samples, and none of its light.
-TEST(KernelFeatures, SeeingNeedsNoLight) {
-    Material emitter;
-    emitter.emission = glm::vec3(1);
-    Scene scene = oneTriangle(emitter);
-    scene.lights.emplace_back().kind = LightKind::Ambient;
-    scene.lights.emplace_back(); // a point
-    RenderSettings s;
-    s.estimator.branches = 4;
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
-    const KernelFeatures light = kernelFeatures(gpu, Camera{}, s.estimator, {});
-    for (const auto& [what, integrator] : {std::pair{Seeing::Coverage, gpu::INTEGRATOR_COVERAGE},
-                                           std::pair{Seeing::Surfaces, gpu::INTEGRATOR_LAYERS}}) {
-        const KernelFeatures f = seeingFeatures(gpu, Camera{}, s.estimator, {}, what);
-        EXPECT_EQ(f[SPEC_INTEGRATOR], integrator);
-        EXPECT_EQ(f[SPEC_CLOSURES], what == Seeing::Surfaces ? light[SPEC_CLOSURES] : 0u);
-        for (const uint32_t ofLight :
-             {SPEC_LIGHT_KINDS, SPEC_HAS_EMISSION, SPEC_HAS_AMBIENT, SPEC_AMBIENT_BY_BOUNCES,
-              SPEC_MIS_LOBES, SPEC_ROULETTE, SPEC_SPLITS}) {
-            EXPECT_EQ(f[ofLight], 0u) << ofLight;
-            EXPECT_TRUE(light[ofLight] != 0 || ofLight == SPEC_MIS_LOBES) << ofLight;
-        }
-    }
-}
-
-TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetEmittersThatBouncesFind) {
-    Material metal, emitter;
-    metal.kind = MaterialKind::Conductor;
-    metal.facets = {FacetDistribution::Beckmann, glm::vec2(0.1f)};
-    emitter.emission = glm::vec3(1);
-    Scene scene = oneTriangle(metal);
-    EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]); // no light
-    scene.lights.emplace_back();                     // a point
-    EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]);
-    scene.materials.push_back(emitter);
-    scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
-    EXPECT_TRUE(featuresOf(scene)[SPEC_MIS_LOBES]);
-    for (const DirectLight mode :
-         {DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
-        RenderSettings s;
-        s.estimator.directLight = mode;
-        EXPECT_FALSE(featuresOf(scene, s)[SPEC_MIS_LOBES]);
-    }
-    scene.materials[0].kind = MaterialKind::Diffuse;
-    EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]);
-}
-
-/// Bounces find the sky as well as samples of it do: beside other lights they do it alone, else
-/// both share it, from diffuse surfaces too. docs/results.md has the gain.
-TEST(KernelFeatures, TheSkyIsFoundByBounces) {
-    Scene scene = oneTriangle({});
-    scene.lights.emplace_back().kind = LightKind::Ambient;
-    const auto featuresIn = [&](DirectLight mode) {
-        RenderSettings s;
-        s.estimator.directLight = mode;
-        return featuresOf(scene, s);
-    };
-    EXPECT_EQ(featuresIn(DirectLight::Mis)[SPEC_MIS_LOBES], gpu::LOBE_DIFFUSE_REFLECTION);
-    EXPECT_FALSE(featuresIn(DirectLight::Mis)[SPEC_AMBIENT_BY_BOUNCES]);
-    scene.lights.emplace_back(); // a point
-    EXPECT_FALSE(featuresIn(DirectLight::Mis)[SPEC_MIS_LOBES]);
-    EXPECT_TRUE(featuresIn(DirectLight::Mis)[SPEC_AMBIENT_BY_BOUNCES]);
-    EXPECT_TRUE(featuresIn(DirectLight::Mis)[SPEC_HAS_AMBIENT]);
-    EXPECT_EQ(featuresIn(DirectLight::Mis)[SPEC_LIGHT_KINDS], 1u << gpu::LIGHT_POINT)
-        << "no code to sample the sky";
-    EXPECT_EQ(featuresIn(DirectLight::Mis)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_ONE);
-    EXPECT_EQ(featuresIn(DirectLight::MisAll)[SPEC_MIS_LOBES], gpu::LOBE_DIFFUSE_REFLECTION);
-    for (const DirectLight mode :
-         {DirectLight::MisAll, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf})
-        EXPECT_FALSE(featuresIn(mode)[SPEC_AMBIENT_BY_BOUNCES]) << nameOf(mode);
-}
-
-/// Lights packed for one way to find direct light are refused where another would count some of
-/// them twice or not at all.
-TEST(KernelFeatures, LightsPackedForAnotherModeAreRefused) {
-    Material emitter;
-    emitter.emission = glm::vec3(1);
-    Scene lit = oneTriangle(emitter), sunAndSky = oneTriangle({});
-    sunAndSky.lights.resize(2);
-    sunAndSky.lights[0].kind = LightKind::Ambient;
-    const auto sampling = [](const Scene& scene, DirectLight packedFor, DirectLight mode) {
-        Estimator packing, e;
-        packing.directLight = packedFor;
-        e.directLight = mode;
-        const GpuScene g = packScene(scene, buildWideBvh(scene), lightSelection(packing));
-        return directSampling(g.lights, e);
-    };
-    using enum DirectLight;
-    for (const DirectLight mode : {Hemisphere, Bsdf}) {
-        EXPECT_THROW(sampling(lit, Mis, mode), std::invalid_argument) << nameOf(mode);
-        EXPECT_EQ(sampling(lit, mode, mode).lights, 0u) << nameOf(mode);
-    }
-    for (const DirectLight mode : {MisAll, Lights}) {
-        EXPECT_THROW(sampling(sunAndSky, Mis, mode), std::invalid_argument) << nameOf(mode);
-        EXPECT_EQ(sampling(sunAndSky, mode, mode).lights, 2u) << nameOf(mode);
-    }
-    EXPECT_EQ(sampling(sunAndSky, Mis, Mis).lights, 1u);
-}
-
-/// A light sample may use the numbers drawn with the path ray, but no two of a surface the same.
-TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
-    Material emitter;
-    emitter.emission = glm::vec3(1);
-    Scene scene = oneTriangle({});
-    scene.materials.push_back(emitter);
-    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED);
-    for (int i = 0; i < 3; ++i)
-        scene.spheres.push_back({{0, 0, 5 + 4 * float(i)}, 1, 1, 0});
-    RenderSettings s;
-    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED) << "one of all";
-    s.estimator.lightSamples = 2;
-    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
-    s.estimator.lightSamples = 1;
-    s.estimator.lightChoice = LightChoice::Each;
-    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
-}
-
-TEST(KernelFeatures, OneLightIsNotChosen) {
-    Material emitter;
-    emitter.emission = glm::vec3(1);
-    Scene scene = oneTriangle({});
-    scene.materials.push_back(emitter);
-    scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
-    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_ONE);
-    for (int i = 0; i < 9; ++i)
-        scene.spheres.push_back({{0, 0, 9 + 4 * float(i)}, 1, 1, 0});
-    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_TREE);
-    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_GROUPS], 1u << gpu::LIGHT_GROUP_NEAR);
 }
 
 TEST(KernelFeatures, NoRouletteWherePathsEndBeforeIt) {
@@ -329,56 +166,6 @@ TEST(KernelFeatures, FollowTheTuning) {
     EXPECT_GE(f[SPEC_STACK_SIZE], 1u);
 }
 
-/// The kernel has two sets of shading conventions; a mixture is refused, not rendered as one of
-/// them.
-TEST(KernelFeatures, ConventionsAreOneSetOrTheOther) {
-    const auto constant = [](const ShadingConventions& conventions) {
-        RenderSettings s;
-        s.estimator.conventions = conventions;
-        return featuresOf(oneTriangle({}), s)[SPEC_CS184];
-    };
-    EXPECT_EQ(constant({}), 0u);
-    EXPECT_EQ(constant(cs184Shading()), 1u);
-    EXPECT_EQ(constant({.offsetsTerminator = false}), 0u) << "a constant of its own";
-    using C = ShadingConventions;
-    for (bool C::*member : {&C::facesForward, &C::testsGeometricSide, &C::exactFresnel,
-                            &C::exactLambda, &C::compressesRadiance, &C::bouncesFindAllLight,
-                            &C::inverseSquareFalloff, &C::ambientAboutNormal, &C::samplesEmitters,
-                            &C::everyLightInTurn, &C::hemispherePerLight}) {
-        C one, allButOne = cs184Shading();
-        one.*member = cs184Shading().*member;
-        allButOne.*member = C{}.*member;
-        EXPECT_NE(one, C{});
-        EXPECT_THROW(constant(one), std::invalid_argument);
-        EXPECT_THROW(constant(allButOne), std::invalid_argument);
-    }
-}
-
-/// Which lights are packed, by the conventions that say so.
-TEST(LightSelection, FollowsTheConventions) {
-    Material emitter;
-    emitter.emission = glm::vec3(1);
-    Scene scene = oneTriangle(emitter);
-    scene.lights.resize(4);
-    scene.lights[0].kind = scene.lights[1].kind = LightKind::Ambient;
-    scene.lights[3].color = glm::vec3(0);
-    const auto count = [&](const ShadingConventions& conventions,
-                           DirectLight direct = DirectLight::Lights) {
-        Estimator e;
-        e.conventions = conventions;
-        e.directLight = direct;
-        return packScene(scene, buildWideBvh(scene), lightSelection(e)).lights.count;
-    };
-    EXPECT_EQ(count({}), 3u); // the triangle, the sum of ambient light, the point light that shines
-    EXPECT_EQ(count({}, DirectLight::Mis), 2u); // the sky is left to bounces
-    EXPECT_EQ(count({.samplesEmitters = false}), 2u);
-    EXPECT_EQ(count({.everyLightInTurn = true}), 5u);
-    EXPECT_EQ(count({}, DirectLight::Hemisphere), 1u);
-    EXPECT_EQ(count({.hemispherePerLight = true}, DirectLight::Hemisphere), 3u);
-    EXPECT_EQ(count(cs184Shading(), DirectLight::Hemisphere), 4u);
-    EXPECT_EQ(count(cs184Shading(), DirectLight::Bsdf), 2u);
-}
-
 /// The benchmark's kernel: all that scenes may hold, but of the settings only what is asked for.
 /// What a texture makes less metallic may transmit.
 TEST(KernelFeatures, MetalThatATextureMakesClearTransmits) {
@@ -410,7 +197,7 @@ TEST(KernelFeatures, EverythingOn) {
     EXPECT_EQ(f[SPEC_CLOSURES_OF_ALL], 0u);
     EXPECT_EQ(f[SPEC_LIGHT_KINDS], (1u << gpu::LIGHT_KIND_COUNT) - 1);
     EXPECT_EQ(f[SPEC_ROULETTE], gpu::ROULETTE_NONE);
-    EXPECT_EQ(f[SPEC_CS184], 0u);
+    EXPECT_EQ(f[SPEC_DEPARTURES], 0u);
     EXPECT_EQ(f[SPEC_COUNT_STEPS], 0u);
 }
 

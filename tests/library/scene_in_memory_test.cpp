@@ -1,5 +1,6 @@
 // Scenes made in memory: the library's file without the rounding of its text, and larger ones.
 #include "host/core/error.hpp"
+#include "host/cs184/cs184.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "scene/read_scene.hpp"

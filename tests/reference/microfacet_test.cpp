@@ -1,3 +1,4 @@
+#include "host/cs184/cs184.hpp"
 #include "host/reference/bsdf.hpp"
 #include "host/reference/interfaces.hpp"
 #include "host/reference/microfacet.hpp"

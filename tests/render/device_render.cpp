@@ -1,4 +1,5 @@
 #include "tests/render/device_render.hpp"
+#include "host/cs184/cs184.hpp"
 
 #include "host/bvh/wide_layout.hpp"
 #include "host/render/sampling_session.hpp"

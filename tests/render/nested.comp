@@ -25,7 +25,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/camera.glsl"
 #include "include/warps.glsl"
 #include "include/pixel_filter.glsl"
-#include "include/cs184.glsl"
+#include "include/conventions.glsl"
 #include "include/surface.glsl"
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"

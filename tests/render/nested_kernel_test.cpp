@@ -2,6 +2,7 @@
 // whatever the scene needs and however the product's work is cut. A form of the product's loop was
 // once compiled wrongly by a driver; nothing but such a comparison would show it.
 #include "host/bvh/wide_layout.hpp"
+#include "host/cs184/cs184.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/sampling_session.hpp"

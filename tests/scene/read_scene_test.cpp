@@ -1,5 +1,6 @@
 // Which loader reads what: told by the file's name, and where that says nothing, by its content.
 
+#include "host/cs184/cs184.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/read_scene.hpp"
 

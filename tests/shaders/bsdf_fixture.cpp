@@ -1,6 +1,7 @@
 #include "tests/shaders/bsdf_fixture.hpp"
 
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/kernel_features.hpp"
 
 #include "embedded/bsdf_texel.h"
 
@@ -9,7 +10,7 @@
 namespace stromboli::test {
 BsdfFixture::BsdfFixture(std::vector<Material> materials, const ShadingConventions& conventions)
     : materials_(std::move(materials)), conventions_(conventions),
-      shader_(bsdf_texel, ShaderOptions::texel().set(SPEC_CS184, conventions == cs184Shading())) {
+      shader_(bsdf_texel, ShaderOptions::texel().set(SPEC_DEPARTURES, departures(conventions))) {
     Scene scene;
     scene.materials = materials_;
     shader_.setScene(packScene(scene, buildWideBvh(scene)));

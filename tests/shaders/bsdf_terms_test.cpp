@@ -1,5 +1,5 @@
 // The terms of the BSDFs against formulas in double precision: host/reference where it has them,
-// docs/theory/estimator.md for the conventions of CS184.
+// docs/guide/cs184.md.
 #include "host/core/random.hpp"
 #include "host/reference/microfacet.hpp"
 #include "tests/shaders/queries.h"
@@ -22,8 +22,9 @@ constexpr double kUlp = 0x1p-23;
 
 class BsdfTerms : public DeviceTest {
   protected:
-    std::vector<TermAnswer> answers(const std::vector<TermQuery>& queries, bool cs184 = false) {
-        return ask<TermAnswer>(bsdf_terms_shader, queries, ShaderOptions().set(SPEC_CS184, cs184));
+    std::vector<TermAnswer> answers(const std::vector<TermQuery>& queries, bool departs = false) {
+        return ask<TermAnswer>(bsdf_terms_shader, queries,
+                               ShaderOptions().set(SPEC_DEPARTURES, departs ? ~0u : 0u));
     }
 };
 
@@ -44,17 +45,17 @@ TEST_F(BsdfTerms, Erf) {
 }
 
 TEST_F(BsdfTerms, SmithLambda) {
-    for (const bool cs184 : {false, true}) {
+    for (const bool departs : {false, true}) {
         std::vector<TermQuery> queries;
         for (const float alpha : {0.01f, 0.1f, 0.25f, 1.0f})
             for (int i = 1; i <= 1000; ++i)
                 queries.push_back({{1, 1, 1}, float(i) * 1e-3f, {0, 0, 0}, alpha});
-        const std::vector<TermAnswer> found = answers(queries, cs184);
+        const std::vector<TermAnswer> found = answers(queries, departs);
         for (size_t i = 0; i < found.size(); ++i) {
             const double c = queries[i].x, alpha = queries[i].alpha;
             const double a = c / (alpha * std::sqrt(1 - c * c));
             double expected = 0;
-            if (c < 1 && cs184)
+            if (c < 1 && departs)
                 expected = (std::erf(a) - 1 + std::exp(-a * a) / (a * kPi)) / 2;
             else if (c < 1)
                 expected = -std::erfc(a) / 2 + std::exp(-a * a) / (2 * a * std::sqrt(kPi));
@@ -92,7 +93,7 @@ TEST_F(BsdfTerms, ConductorFresnel) {
             const double c2 = cosine * cosine;
             const double rs = (s - 2 * eta * cosine + c2) / (s + 2 * eta * cosine + c2);
             const double rp = (s * c2 - 2 * eta * cosine + 1) / (s * c2 + 2 * eta * cosine + 1);
-            ASSERT_NEAR(found[i].conductorCs184[c], (rs + rp) / 2, 20 * kUlp) << i;
+            ASSERT_NEAR(found[i].approximateConductor[c], (rs + rp) / 2, 20 * kUlp) << i;
         }
     }
 }

@@ -2,6 +2,7 @@
 // double-precision reference's, weights are value over density, samples fall where the density
 // says, light is neither gained nor lost where it should not be. What is special to interfaces:
 // dielectric_test.cpp.
+#include "host/cs184/cs184.hpp"
 #include "tests/shaders/bsdf_cases.hpp"
 #include "tests/shaders/bsdf_fixture.hpp"
 #include "tests/support/chi_square.hpp"

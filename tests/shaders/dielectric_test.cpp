@@ -1,5 +1,6 @@
 // Mirror, refraction and glass: directions by the laws of reflection and of Snell, weights and the
 // probability of reflection, under both conventions.
+#include "host/cs184/cs184.hpp"
 #include "tests/shaders/bsdf_fixture.hpp"
 
 #include "host/reference/microfacet.hpp"

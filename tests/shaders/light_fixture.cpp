@@ -1,6 +1,7 @@
 #include "tests/shaders/light_fixture.hpp"
 
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/kernel_features.hpp"
 
 #include "embedded/light_texel.h"
 
@@ -10,7 +11,7 @@ namespace stromboli::test {
 
 LightFixture::LightFixture(const ShadingConventions& conventions)
     : conventions_(conventions),
-      shader_(light_texel, ShaderOptions::texel().set(SPEC_CS184, conventions == cs184Shading())) {}
+      shader_(light_texel, ShaderOptions::texel().set(SPEC_DEPARTURES, departures(conventions))) {}
 
 void LightFixture::setScene(const Scene& scene) {
     Estimator estimator;

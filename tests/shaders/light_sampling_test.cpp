@@ -1,6 +1,8 @@
 // Samples of quads, meshes, ambient and delta lights: where they fall (chi-square, .01 for the
 // tests of this file together), what they weigh, and that the emitter does not shade itself.
+#include "host/cs184/cs184.hpp"
 #include "host/reference/lights.hpp"
+#include "host/reference/sampling.hpp"
 #include "tests/shaders/light_fixture.hpp"
 #include "tests/support/chi_square.hpp"
 
@@ -162,7 +164,8 @@ TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
         for (size_t i = 0; i < queries.size(); ++i) {
             reference::SurfacePoint s;
             s.position = queries[i].position;
-            const reference::LightSample e = expected.sampleDelta(0, s);
+            reference::RandomStream numbers(0, uint32_t(i), 0);
+            const reference::LightSample e = expected.sampleDelta(0, s, numbers);
             ASSERT_TRUE(isSound(found[i]));
             EXPECT_EQ(found[i].infinite != 0, e.infinite);
             EXPECT_LT(glm::length(glm::dvec3(found[i].direction) - e.direction), 1e-6);

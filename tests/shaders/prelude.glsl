@@ -19,7 +19,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/traverse.glsl"
 #include "include/camera.glsl"
 #include "include/warps.glsl"
-#include "include/cs184.glsl"
+#include "include/conventions.glsl"
 #include "include/surface.glsl"
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"

@@ -234,7 +234,7 @@ struct TermQuery {
 struct TermAnswer {
     vec3 conductor;
     float erf;
-    vec3 conductorCs184;
+    vec3 approximateConductor;
     float lambda;
     float dielectric;
     float cosTransmitted;

@@ -1,6 +1,7 @@
 // Samplers at the ends of the interval that random numbers come from, 0 and 1 - 2^-24, in all
 // combinations: what comes out is finite and in its domain. Warps of the square and emitters have
 // such tests of their own (warps_test.cpp, light_sampling_test.cpp, sphere_light_test.cpp).
+#include "host/cs184/cs184.hpp"
 #include "host/reference/sampling.hpp"
 #include "tests/shaders/bsdf_fixture.hpp"
 #include "tests/shaders/light_fixture.hpp"

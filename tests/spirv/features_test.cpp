@@ -35,13 +35,14 @@ const std::vector<Words>& bases() {
     static const std::vector<Words> all = [] {
         Words everything = featuresOf("cornell_boxes", true);
         // Off: what takes the place of others.
-        const std::set<uint32_t> off = {SPEC_CS184, SPEC_ORTHOGRAPHIC, SPEC_FLAT_TERMINATOR,
+        const std::set<uint32_t> off = {SPEC_ORTHOGRAPHIC, SPEC_FLAT_TERMINATOR,
                                         SPEC_STACK_IN_REGISTERS};
         for (const Feature& f : featureTable()) {
             if (f.shown.kind == Kind::Flag) everything[f.constant] = !off.contains(f.constant);
             if (f.shown.kind == Kind::Bits)
                 everything[f.constant] = (1u << f.shown.names.size()) - 1;
         }
+        everything[SPEC_DEPARTURES] = 0;
         everything[SPEC_LIGHT_CHOICE] = gpu::LIGHT_CHOICE_TREE;
         everything[SPEC_LOOSE_TEXTURES] = 4;
         everything[SPEC_PIXEL_FILTER] = gpu::FILTER_TENT;

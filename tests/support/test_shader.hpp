@@ -22,7 +22,8 @@ namespace stromboli::test {
 inline constexpr uint32_t kQueryBinding = BINDING_COUNT;
 inline constexpr uint32_t kAnswerBinding = BINDING_COUNT + 1;
 
-/// How a test shader is specialised. As it stands, everything is switched on but CS184.
+/// How a test shader is specialised. As it stands, everything is switched on and all conventions
+/// are those of physics.
 struct ShaderOptions {
     ShaderOptions();
     /// For a shader that was compiled with FETCH_TEXEL.

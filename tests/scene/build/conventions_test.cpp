@@ -1,5 +1,6 @@
 // Each convention, alone: the builder asks for it by its name and not for the renderer it is of.
 
+#include "host/cs184/cs184.hpp"
 #include "scene/build/conventions.hpp"
 #include "scene/build/scene_builder.hpp"
 

@@ -1,5 +1,6 @@
 // What a scene without any light gets, and which scenes those are.
 
+#include "host/cs184/cs184.hpp"
 #include "scene/build/scene_builder.hpp"
 #include "scene/model/default_light.hpp"
 

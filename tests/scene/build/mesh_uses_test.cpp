@@ -1,5 +1,6 @@
 // Which meshes share their triangles, and that what is shared is where its copies would be.
 
+#include "host/cs184/cs184.hpp"
 #include "scene/build/scene_builder.hpp"
 #include "scene/model/placements.hpp"
 

@@ -1,5 +1,6 @@
 // How a file's camera fits pictures of any shape.
 
+#include "host/cs184/cs184.hpp"
 #include "scene/camera/camera.hpp"
 
 #include "host/core/error.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/core/error.hpp"
+#include "host/cs184/cs184.hpp"
 #include "scene/collada/load_collada.hpp"
 
 #include <fmt/format.h>

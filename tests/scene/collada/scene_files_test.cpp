@@ -1,6 +1,7 @@
 // The course's scenes, where they are at hand (../shared/scenes beside the source tree). The
 // expected numbers are those of the course's renderer.
 
+#include "host/cs184/cs184.hpp"
 #include "tests/scene/collada/document_text.hpp"
 
 #include "scene/model/emitters.hpp"

@@ -1,5 +1,6 @@
 // Textures, the coordinates that they are looked up by, and colours of corners.
 
+#include "host/cs184/cs184.hpp"
 #include "tests/scene/collada/document_text.hpp"
 
 #include "tests/scene/images/encoders.hpp"

@@ -155,8 +155,9 @@ TEST(PbrtInfinite, IsAConstantOrASum) {
 
 TEST(PbrtInfinite, HasAPortal) {
     const auto withPortal = [](const std::string& corners) {
-        return loadV4("Translate 9 9 9 LightSource \"infinite\" \"rgb L\" [1 1 1] \"point3 portal\" [" +
-                      corners + "] " + std::string(kTriangle));
+        return loadV4(
+            "Translate 9 9 9 LightSource \"infinite\" \"rgb L\" [1 1 1] \"point3 portal\" [" +
+            corners + "] " + std::string(kTriangle));
     };
     const Scene scene = withPortal("1 2 3  1 4 3  1 4 8  1 2 8");
     ASSERT_EQ(scene.portals.size(), 1u);
