@@ -90,7 +90,7 @@ SHARED_CONST vec3 DENOISE_STRICT_SCALE = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.1f
 SHARED_CONST vec3 DENOISE_WIDE_SCALE = vec3(1.0f / (0.2f * 0.2f), 1.0f / (0.15f * 0.15f), 1.0f / (0.03f * 0.03f));
 /// How unlike the radiance of pilots may be, in what their variances explain: a candidate that is strict, and two that
 /// keep no more than the edges of lamps, which no layer shows.
-SHARED_CONST float DENOISE_STRICT_COLOR = 1.0f / (0.6f * 0.6f);
+SHARED_CONST float DENOISE_STRICT_COLOR = 1.0f / (0.8f * 0.8f);
 SHARED_CONST float DENOISE_LOOSE_COLOR = 1.0f / (1.5f * 1.5f);
 
 /// The regression: pixels to each side that it looks at; the exponent by which a neighbour counts less for its squared
@@ -111,7 +111,7 @@ SHARED_CONST float DENOISE_LEAST_NOISE = 1e-12f;
 /// How often the shares of the candidates are improved one after the other.
 SHARED_CONST int DENOISE_SWEEPS = 16;
 /// By how much products of a candidate with itself are made larger, so that a candidate that is hardly needed is left out.
-SHARED_CONST float DENOISE_RIDGE = 0.02f;
+SHARED_CONST float DENOISE_RIDGE = 0.1f;
 
 /// A neighbour, and the exponents by which it counts less for its distance.
 struct DenoiseTap {

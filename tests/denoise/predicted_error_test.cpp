@@ -96,7 +96,8 @@ TEST(PredictedError, CountsWhatSingleBrightSamplesLeave) {
         predicted += d.summary.noise.estimate * d.summary.noise.estimate;
         measured += relMse(d.mean, kRoomWidth, lit);
     }
-    EXPECT_GT(std::sqrt(predicted / measured), 0.8);
+    // The limit of single samples spreads some light that is not counted as error.
+    EXPECT_GT(std::sqrt(predicted / measured), 0.7);
 }
 
 /// A range that holds in 95 of 100 renders holds in at least 34 of 40, but in one case of a hundred
