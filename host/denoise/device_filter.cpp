@@ -6,6 +6,8 @@
 #include "embedded/denoise_filter_texel.h"
 #include "embedded/denoise_pilot_storage.h"
 #include "embedded/denoise_pilot_texel.h"
+#include "embedded/denoise_regress_storage.h"
+#include "embedded/denoise_regress_texel.h"
 #include "embedded/denoise_sum_rows_storage.h"
 #include "embedded/denoise_sum_rows_texel.h"
 #include "host/denoise/taps.hpp"
@@ -26,15 +28,18 @@ struct PassPlan {
     std::vector<uint32_t> bindings;
 };
 
-const std::array<PassPlan, 4>& passes() {
-    static const std::array<PassPlan, 4> all = {{
+const std::array<PassPlan, 5>& passes() {
+    static const std::array<PassPlan, 5> all = {{
         {denoise_pilot_storage,
          denoise_pilot_texel,
          {DENOISE_BINDING_PIXELS, DENOISE_BINDING_PILOTS}},
+        {denoise_regress_storage,
+         denoise_regress_texel,
+         {DENOISE_BINDING_PIXELS, DENOISE_BINDING_PILOTS, DENOISE_BINDING_REGRESSIONS}},
         {denoise_filter_storage,
          denoise_filter_texel,
          {DENOISE_BINDING_TAPS, DENOISE_BINDING_PIXELS, DENOISE_BINDING_PILOTS,
-          DENOISE_BINDING_CANDIDATES, DENOISE_BINDING_MOMENTS}},
+          DENOISE_BINDING_REGRESSIONS, DENOISE_BINDING_CANDIDATES, DENOISE_BINDING_MOMENTS}},
         {denoise_sum_rows_storage,
          denoise_sum_rows_texel,
          {DENOISE_BINDING_MOMENTS, DENOISE_BINDING_SUMS}},
@@ -54,10 +59,11 @@ constexpr std::array<uint64_t, DENOISE_BINDING_COUNT> kBytesPerPixel = {
     3 * sizeof(gpu::DenoiseCandidate),
     sizeof(gpu::DenoiseMoments),
     sizeof(gpu::DenoiseMoments),
-    sizeof(gpu::DenoiseResult)};
+    sizeof(gpu::DenoiseResult),
+    sizeof(gpu::DenoiseCandidate)};
 constexpr std::array<const char*, DENOISE_BINDING_COUNT> kNames = {
     "denoiser's taps",    "denoiser's pixels", "denoiser's pilots", "denoiser's candidates",
-    "denoiser's moments", "denoiser's sums",   "denoised pixels"};
+    "denoiser's moments", "denoiser's sums",   "denoised pixels",   "denoiser's regressions"};
 
 /// The most that one of them takes.
 constexpr uint64_t kLargest = *std::ranges::max_element(kBytesPerPixel);
@@ -141,9 +147,9 @@ bool DeviceFilter::runStrip(const Prepared& picture, Rows rows, Buffers& buffers
     const Rows all = around(rows, kHalo, picture.height);
     // What each pass makes, so that the next has all that it looks at.
     const uint32_t window = gpu::DENOISE_WINDOW_REACH;
-    const std::array<Rows, 4> made = {around(rows, window + kReach, picture.height),
-                                      around(rows, window, picture.height),
-                                      around(rows, window, picture.height), rows};
+    const std::array<Rows, 5> made = {
+        around(rows, window + kReach, picture.height), around(rows, window, picture.height),
+        around(rows, window, picture.height), around(rows, window, picture.height), rows};
     const size_t width = picture.width;
     buffers.all[DENOISE_BINDING_PIXELS].upload(
         queue_,

@@ -1,5 +1,6 @@
 #include "host/denoise/reference_filter.hpp"
 
+#include "host/denoise/reference_regression.hpp"
 #include "host/denoise/taps.hpp"
 
 #include <tbb/parallel_for.h>
@@ -11,18 +12,9 @@
 namespace stromboli::denoise {
 namespace {
 
+/// A mean that is strict about what it takes for alike, the regression, and a wide mean.
 constexpr int kCandidates = 3;
-
-struct Pilot {
-    glm::dvec3 first{0.0}, second{0.0}; ///< of either half
-    double variance = 0;                ///< of either, summed over channels
-    double noise = 0;                   ///< mean squared deviation of a pixel, by channel
-};
-
-/// What a candidate changes of the mean, and half of what its two halves differ by.
-struct Candidate {
-    glm::dvec3 change{0.0}, deviation{0.0};
-};
+constexpr size_t kStrict = 0, kRegression = 1, kWide = 2;
 
 /// Sums over pixels, relative to their radiance and noise.
 struct Moments {
@@ -127,47 +119,60 @@ class HostFilter {
             void add(double w, const glm::dvec3& r) { radiance += w * r, weight += w; }
             glm::dvec3 mean() const { return weight > 0 ? radiance / weight : glm::dvec3(0.0); }
         };
-        std::array<Sum, kCandidates> first, second;
-        const glm::vec3 scales[] = {gpu::DENOISE_SCALE0, gpu::DENOISE_SCALE1, gpu::DENOISE_SCALE2};
+        Sum firstStrict, secondStrict, firstWide, secondWide;
         for (const gpu::DenoiseTap& tap : taps_) {
             const int dx = int(tap.dx), dy = int(tap.dy);
             if (!isInside(x + dx, y + dy)) continue;
             const gpu::DenoisePixel& q = picture_.pixels[at(x + dx, y + dy)];
             const Pilot& other = pilots_[at(x + dx, y + dy)];
-            const double variance = pilot.variance + other.variance + 1e-30;
-            const auto excess = [&](const glm::dvec3& difference) {
-                return std::max(squareOf(difference) / variance - 1, 0.0);
-            };
-            const double a = excess(other.first - pilot.first);
-            const double b = excess(other.second - pilot.second);
+            const glm::dvec2 unlikely = excess(pilot, other);
             const double times = double(q.weight) * tap.times;
+            const double strict =
+                double(tap.strict) + 0.5 * unlike(own, q, dx, dy, gpu::DENOISE_STRICT_SCALE);
+            const double wide =
+                double(tap.wide) + 0.5 * unlike(own, q, dx, dy, gpu::DENOISE_WIDE_SCALE);
+            const glm::dvec2 a = glm::exp(-strict - double(gpu::DENOISE_STRICT_COLOR) * unlikely);
+            const glm::dvec2 b = glm::exp(-wide - double(gpu::DENOISE_LOOSE_COLOR) * unlikely);
             const glm::dvec3 mean(q.mean), deviation(q.deviation);
-            for (int c = 0; c < kCandidates; ++c) {
-                const double same =
-                    double(tap.exponents[c]) + 0.5 * unlike(own, q, dx, dy, scales[c]);
-                const double color = gpu::DENOISE_COLOR_SCALE[c];
-                first[size_t(c)].add(times * std::exp(-same - color * a), mean + deviation);
-                second[size_t(c)].add(times * std::exp(-same - color * b), mean - deviation);
-            }
+            firstStrict.add(times * a.x, mean + deviation);
+            secondStrict.add(times * a.y, mean - deviation);
+            firstWide.add(times * b.x, mean + deviation);
+            secondWide.add(times * b.y, mean - deviation);
         }
+        const auto of = [&](const glm::dvec3& f, const glm::dvec3& s) {
+            return Candidate{0.5 * (f + s) - glm::dvec3(own.mean), 0.5 * (f - s)};
+        };
         std::array<Candidate, kCandidates> candidates;
-        for (size_t c = 0; c < kCandidates; ++c) {
-            const glm::dvec3 f = first[c].mean(), s = second[c].mean();
-            candidates[c] = {0.5 * (f + s) - glm::dvec3(own.mean), 0.5 * (f - s)};
-        }
+        candidates[kStrict] = of(firstStrict.mean(), secondStrict.mean());
+        candidates[kRegression] = regressionAt(picture_, pilots_, x, y);
+        candidates[kWide] = of(firstWide.mean(), secondWide.mean());
         return candidates;
     }
 
-    /// What a squared error counts for in relMSE, by channel.
-    glm::dvec3 countOf(size_t pixel) const {
+    /// What a squared error counts for in relMSE, by channel, where this is the radiance over
+    /// albedo.
+    glm::dvec3 countAt(size_t pixel, const glm::dvec3& radiance) const {
         const glm::dvec3 albedo(picture_.albedo[pixel]);
-        const glm::dvec3 radiance =
-            (glm::dvec3(picture_.pixels[pixel].mean) + candidates_[pixel][2].change) * albedo;
-        return albedo * albedo / (radiance * radiance + floor_);
+        return albedo * albedo / (radiance * radiance * albedo * albedo + floor_);
+    }
+
+    /// For the choice of shares: by the regression.
+    glm::dvec3 countOf(size_t pixel) const {
+        return countAt(pixel, glm::dvec3(picture_.pixels[pixel].mean) +
+                                  candidates_[pixel][kRegression].change);
+    }
+
+    /// For what is said of the error: by what the wide candidate makes of either half, on the mean.
+    glm::dvec3 statedCountOf(size_t pixel) const {
+        const Candidate& wide = candidates_[pixel][kWide];
+        const glm::dvec3 even = glm::dvec3(picture_.pixels[pixel].mean) + wide.change;
+        return 0.5 *
+               (countAt(pixel, even + wide.deviation) + countAt(pixel, even - wide.deviation));
     }
 
     double noiseOf(size_t pixel) const {
-        return sumOf(countOf(pixel)) * pilots_[pixel].noise + double(gpu::DENOISE_LEAST_NOISE);
+        return std::sqrt(sumOf(countOf(pixel)) * pilots_[pixel].noise +
+                         double(gpu::DENOISE_LEAST_NOISE));
     }
 
     Moments momentsOf(size_t pixel) const {
@@ -226,10 +231,10 @@ class HostFilter {
         glm::dvec3 left = (1 - s.x - s.y - s.z) * glm::dvec3(own.deviation);
         for (int a = 0; a < kCandidates; ++a)
             left += s[a] * candidates_[pixel][size_t(a)].deviation;
-        const double noise = noiseOf(pixel);
+        const double noise = noiseOf(pixel) * sumOf(statedCountOf(pixel)) / sumOf(countOf(pixel));
         result.own = moments_[pixel].errorWith(s) * noise / 3.0;
         result.window = window.errorWith(s) / std::max(window.pixels, 1.0) * noise / 3.0;
-        result.ownVariance = own.weight * glm::dot(countOf(pixel), left * left) / 3;
+        result.ownVariance = own.weight * glm::dot(statedCountOf(pixel), left * left) / 3;
         return result;
     }
 

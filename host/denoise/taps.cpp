@@ -10,7 +10,7 @@ namespace {
 constexpr int kDense = 4;
 constexpr int kStep = 2;
 /// Deviations of the candidates' weights by distance, in pixels.
-constexpr double kStrict = 4, kNarrow = 1.5, kWide = 8;
+constexpr double kStrict = 4, kWide = 8;
 
 /// A Gaussian's.
 float exponent(int square, double deviation) {
@@ -29,8 +29,7 @@ std::vector<gpu::DenoiseTap> taps() {
             if (!isNear && (dx % kStep != 0 || dy % kStep != 0)) continue;
             gpu::DenoiseTap tap{};
             tap.dx = float(dx), tap.dy = float(dy);
-            tap.exponents = {exponent(square, kStrict), exponent(square, kNarrow),
-                             exponent(square, kWide)};
+            tap.strict = exponent(square, kStrict), tap.wide = exponent(square, kWide);
             tap.times = isNear ? 1 : kStep * kStep;
             all.push_back(tap);
         }

@@ -67,6 +67,13 @@ DenoiseCandidate fetchCandidate(uint place, uint number) {
     return DenoiseCandidate(ROW(candidateRows, row).xyz, 0.0, ROW(candidateRows, row + 1u).xyz, 0.0);
 }
 
+/// What an error is compared with where it is stated: what the wide candidate makes of either half, on the mean. One bright
+/// sample makes an error large and, without that, what it is compared with too, and the relative error small.
+vec3 statedCountOf(DenoisePixel own, DenoiseCandidate wide) {
+    const vec3 even = own.mean + wide.change;
+    return 0.5 * (countOf(own, even + wide.deviation) + countOf(own, even - wide.deviation));
+}
+
 void main() {
     const Place place = placeOfInvocation();
     if (place.isNeeded) {
@@ -85,9 +92,11 @@ void main() {
         // Half of what the blends of the two halves differ by: the noise that is left.
         const float rest = 1.0 - shares.x - shares.y - shares.z;
         const vec3 left = rest * own.deviation + shares.x * c0.deviation + shares.y * c1.deviation + shares.z * c2.deviation;
-        const float variance = dot(countOf(own, own.mean + c2.change), left * left) / 3.0;
-        const vec2 ofWindow = errorWith(window, shares) / max(window.pixels, 1.0) * alone.noise / 3.0;
-        const vec2 ofPixel = errorWith(alone, shares) * alone.noise / 3.0;
+        const vec3 chosenBy = countOf(own, own.mean + c1.change), stated = statedCountOf(own, c2);
+        const float noise = alone.noise * dot(stated, vec3(1.0)) / dot(chosenBy, vec3(1.0));
+        const float variance = dot(stated, left * left) / 3.0;
+        const vec2 ofWindow = errorWith(window, shares) / max(window.pixels, 1.0) * noise / 3.0;
+        const vec2 ofPixel = errorWith(alone, shares) * noise / 3.0;
         WRITE_ROW(resultRows, 3u * place.index, vec4(mean, ofPixel.x));
         WRITE_ROW(resultRows, 3u * place.index + 1u, vec4(shares, ofPixel.y));
         WRITE_ROW(resultRows, 3u * place.index + 2u, vec4(ofWindow, own.weight * variance, 0.0));

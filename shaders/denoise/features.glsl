@@ -17,6 +17,20 @@ vec3 featureDifferences(DenoisePixel p, DenoisePixel q, float dx, float dy) {
     return vec3(squareOf(q.albedo - p.albedo), squareOf(q.normal - p.normal), relative * relative);
 }
 
+#ifdef READS_PILOTS
+DenoisePilot fetchPilot(uint index) {
+    const vec4 r0 = ROW(pilotRows, 2u * index), r1 = ROW(pilotRows, 2u * index + 1u);
+    return DenoisePilot(r0.xyz, r0.w, r1.xyz, r1.w);
+}
+
+/// By how much the squared difference of two pilots exceeds what their variances explain, of either half of the samples.
+vec2 excess(DenoisePilot own, DenoisePilot other) {
+    const float variance = own.variance + other.variance + 1e-30; // no 0 / 0 where there is no noise
+    const vec3 even = other.mean - own.mean, odd = other.deviation - own.deviation;
+    return max(vec2(squareOf(even + odd), squareOf(even - odd)) / variance - 1.0, 0.0);
+}
+#endif
+
 /// exp(-x) for x from 0 on, to 2e-7 of itself; 0 from 87 on, where floats end. Of its own, so that it does not depend on
 /// the driver: its precision may be anything (docs/theory/kernel.md, "Arithmetic"). 2^r by its Taylor series.
 float expOfNegative(float x) {

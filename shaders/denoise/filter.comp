@@ -1,6 +1,6 @@
 #version 460
-// The candidates: three means over neighbours that are alike, of each half of the samples by itself, and from these the
-// moments that say how the candidates are best blended (docs/theory/denoising.md).
+// Two candidates that are means over neighbours that are alike, of each half of the samples by itself; and from these and
+// the regression (regress.comp) the moments that say how the candidates are best blended (docs/theory/denoising.md).
 #extension GL_GOOGLE_include_directive : require
 
 #include "shared/denoise_types.h"
@@ -8,18 +8,15 @@
 ROWS_TO_READ(DENOISE_BINDING_TAPS, tapRows)
 ROWS_TO_READ(DENOISE_BINDING_PIXELS, pixelRows)
 ROWS_TO_READ(DENOISE_BINDING_PILOTS, pilotRows)
+ROWS_TO_READ(DENOISE_BINDING_REGRESSIONS, regressionRows)
 ROWS_TO_WRITE(DENOISE_BINDING_CANDIDATES, candidateRows)
 ROWS_TO_WRITE(DENOISE_BINDING_MOMENTS, momentRows)
+#define READS_PILOTS
 #include "denoise/features.glsl"
-
-DenoisePilot fetchPilot(uint index) {
-    const vec4 r0 = ROW(pilotRows, 2u * index), r1 = ROW(pilotRows, 2u * index + 1u);
-    return DenoisePilot(r0.xyz, r0.w, r1.xyz, r1.w);
-}
 
 DenoiseTap fetchTap(uint index) {
     const vec4 r0 = ROW(tapRows, 2u * index), r1 = ROW(tapRows, 2u * index + 1u);
-    return DenoiseTap(r0.x, r0.y, r0.z, 0.0, r1.xyz, 0.0);
+    return DenoiseTap(r0.x, r0.y, r0.z, r0.w, r1.x, 0.0, 0.0, 0.0);
 }
 
 /// Sums of weighted radiance and of the weights, of either half of the samples.
@@ -35,18 +32,15 @@ void add(inout Halves h, float first, float second, DenoisePixel q) {
     h.secondWeight += second;
 }
 
-/// By how much the squared difference of two pilots of a half exceeds what their variances explain.
-float excess(vec3 difference, float variance) { return max(squareOf(difference) / variance - 1.0, 0.0); }
-
-/// What has been gathered for the candidates of a pixel. Each half goes by its own pilot: what it becomes knows nothing
+/// What has been gathered for the two means of a pixel. Each half goes by its own pilot: what it becomes knows nothing
 /// of the other half.
 struct Gathered {
-    Halves c0, c1, c2;
+    Halves strict, wide;
 };
 
 Gathered gather(Place place, DenoisePixel own, DenoisePilot pilot) {
     const Halves none = Halves(vec3(0.0), vec3(0.0), 0.0, 0.0);
-    Gathered g = Gathered(none, none, none);
+    Gathered g = Gathered(none, none);
     for (uint t = 0u; t < dispatch.tapCount; ++t) {
         const DenoiseTap tap = fetchTap(t);
         const int dx = int(tap.dx), dy = int(tap.dy);
@@ -57,15 +51,11 @@ Gathered gather(Place place, DenoisePixel own, DenoisePilot pilot) {
         const vec3 unlike = featureDifferences(own, q, tap.dx, tap.dy);
         const float times = isThere ? q.weight * tap.times : 0.0;
 
-        const float variance = pilot.variance + other.variance + 1e-30; // no 0 / 0 where there is no noise
-        const vec3 even = other.mean - pilot.mean, odd = other.deviation - pilot.deviation;
-        const float first = excess(even + odd, variance), second = excess(even - odd, variance);
-        const vec3 same = tap.exponents + 0.5 * vec3(dot(unlike, DENOISE_SCALE0), dot(unlike, DENOISE_SCALE1),
-                                                     dot(unlike, DENOISE_SCALE2));
-        const vec3 a = same + DENOISE_COLOR_SCALE * first, b = same + DENOISE_COLOR_SCALE * second;
-        add(g.c0, times * expOfNegative(a.x), times * expOfNegative(b.x), q);
-        add(g.c1, times * expOfNegative(a.y), times * expOfNegative(b.y), q);
-        add(g.c2, times * expOfNegative(a.z), times * expOfNegative(b.z), q);
+        const vec2 unlikely = excess(pilot, other);
+        const vec2 a = tap.strict + 0.5 * dot(unlike, DENOISE_STRICT_SCALE) + DENOISE_STRICT_COLOR * unlikely;
+        const vec2 b = tap.wide + 0.5 * dot(unlike, DENOISE_WIDE_SCALE) + DENOISE_LOOSE_COLOR * unlikely;
+        add(g.strict, times * expOfNegative(a.x), times * expOfNegative(a.y), q);
+        add(g.wide, times * expOfNegative(b.x), times * expOfNegative(b.y), q);
     }
     return g;
 }
@@ -87,15 +77,18 @@ void main() {
         const DenoisePixel own = fetchPixel(place.index);
         const DenoisePilot pilot = fetchPilot(place.index);
         const Gathered g = gather(place, own, pilot);
-        const DenoiseCandidate c0 = candidateOf(own, g.c0), c1 = candidateOf(own, g.c1), c2 = candidateOf(own, g.c2);
+        const DenoiseCandidate c0 = candidateOf(own, g.strict), c2 = candidateOf(own, g.wide);
+        const DenoiseCandidate c1 = DenoiseCandidate(ROW(regressionRows, 2u * place.index).xyz, 0.0,
+                                                     ROW(regressionRows, 2u * place.index + 1u).xyz, 0.0);
         store(place.index, 0u, c0);
         store(place.index, 1u, c1);
         store(place.index, 2u, c2);
 
-        // Errors count relative to the radiance, as relMSE has it, of which the smoothest candidate says how large it is;
-        // and to the noise that the neighbours say the pixel has, so that one of them does not decide for all.
-        const vec3 relative = countOf(own, own.mean + c2.change);
-        const float noise = dot(relative, vec3(pilot.noise)) + DENOISE_LEAST_NOISE;
+        // Errors count relative to the radiance, as relMSE has it, of which the regression says how large it is, since it
+        // takes no light over an edge; and to the noise that the neighbours say the pixel has, so that one of them does
+        // not decide for all.
+        const vec3 relative = countOf(own, own.mean + c1.change);
+        const float noise = sqrt(dot(relative, vec3(pilot.noise)) + DENOISE_LEAST_NOISE);
         const vec3 count = own.weight / noise * relative;
         const vec3 taken0 = own.deviation * (own.deviation - c0.deviation);
         const vec3 taken1 = own.deviation * (own.deviation - c1.deviation);

@@ -15,7 +15,8 @@ SHARED_BEGIN
 #define DENOISE_BINDING_MOMENTS 4
 #define DENOISE_BINDING_SUMS 5
 #define DENOISE_BINDING_RESULTS 6
-#define DENOISE_BINDING_COUNT 7
+#define DENOISE_BINDING_REGRESSIONS 7
+#define DENOISE_BINDING_COUNT 8
 
 #define DENOISE_GROUP_SIZE 64
 
@@ -82,15 +83,23 @@ SHARED_ROWS(DenoiseResult, 3);
 /// by the layer's own noise.
 SHARED_CONST float DENOISE_LEAST_ALBEDO = 0.05f;
 
-/// How unlike surfaces may be, of the pilot and of the candidates: what a difference of albedo, normals (of length 1) and
+/// How unlike surfaces may be, of the pilot and of the two candidates that are means: what a difference of albedo, normals (of length 1) and
 /// depth (relative) is divided by, squared.
 SHARED_CONST vec3 DENOISE_PILOT_SCALE = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.2f * 0.2f), 1.0f / (0.03f * 0.03f));
-SHARED_CONST vec3 DENOISE_SCALE0 = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.1f * 0.1f), 1.0f / (0.02f * 0.02f));
-SHARED_CONST vec3 DENOISE_SCALE1 = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.1f * 0.1f), 1.0f / (0.02f * 0.02f));
-SHARED_CONST vec3 DENOISE_SCALE2 = vec3(1.0f / (0.2f * 0.2f), 1.0f / (0.15f * 0.15f), 1.0f / (0.03f * 0.03f));
+SHARED_CONST vec3 DENOISE_STRICT_SCALE = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.1f * 0.1f), 1.0f / (0.02f * 0.02f));
+SHARED_CONST vec3 DENOISE_WIDE_SCALE = vec3(1.0f / (0.2f * 0.2f), 1.0f / (0.15f * 0.15f), 1.0f / (0.03f * 0.03f));
 /// How unlike the radiance of pilots may be, in what their variances explain: a candidate that is strict, and two that
 /// keep no more than the edges of lamps, which no layer shows.
-SHARED_CONST vec3 DENOISE_COLOR_SCALE = vec3(1.0f / (0.6f * 0.6f), 1.0f / (1.5f * 1.5f), 1.0f / (1.5f * 1.5f));
+SHARED_CONST float DENOISE_STRICT_COLOR = 1.0f / (0.8f * 0.8f);
+SHARED_CONST float DENOISE_LOOSE_COLOR = 1.0f / (1.5f * 1.5f);
+
+/// The regression: pixels to each side that it looks at; the exponent by which a neighbour counts less for its squared
+/// distance (a deviation of 2 pixels); what a pixel's width is as a feature, beside albedo and normals of lengths up to 1;
+/// and what is added to the features' own products, relative to the sum of the weights.
+SHARED_CONST int DENOISE_REGRESSION_REACH = 3;
+SHARED_CONST float DENOISE_REGRESSION_DISTANCE = 1.0f / (2.0f * 2.0f * 2.0f);
+SHARED_CONST float DENOISE_REGRESSION_STEP = 0.1f;
+SHARED_CONST float DENOISE_REGRESSION_RIDGE = 1e-5f;
 
 /// Pixels to each side of the pilot's window, and of that over which moments are summed.
 SHARED_CONST int DENOISE_PILOT_REACH = 3;
@@ -102,15 +111,14 @@ SHARED_CONST float DENOISE_LEAST_NOISE = 1e-12f;
 /// How often the shares of the candidates are improved one after the other.
 SHARED_CONST int DENOISE_SWEEPS = 16;
 /// By how much products of a candidate with itself are made larger, so that a candidate that is hardly needed is left out.
-SHARED_CONST float DENOISE_RIDGE = 0.02f;
+SHARED_CONST float DENOISE_RIDGE = 0.1f;
 
 /// A neighbour, and the exponents by which it counts less for its distance.
 struct DenoiseTap {
     float dx, dy; ///< whole numbers of pixels
     float times;  ///< neighbours that it stands for
-    float unused0;
-    vec3 exponents; ///< of the candidates
-    float unused1;
+    float strict, wide; ///< the exponents of these candidates
+    float unused0, unused1, unused2;
 };
 SHARED_ROWS(DenoiseTap, 2);
 
