@@ -20,7 +20,7 @@ namespace {
 
 /// More of the samples do not aim at portals: the light of a sun, or of what no portal lets in, has
 /// at least a quarter.
-constexpr double kMostShare = 0.75, kLeastShare = 0.5;
+constexpr double kMostAimed = 0.75, kLeastAimed = 0.5;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -318,12 +318,12 @@ Portals findPortals(const WideLayout& bvh, const Camera& camera) {
         }
     }
     if (found.all.empty() || worth.gain() < kLeastGain) return {};
-    found.share = std::clamp(worth.bestShare(), kLeastShare, kMostShare);
+    found.share = std::clamp(worth.bestShare(), kLeastAimed, kMostAimed);
     return found;
 }
 
 Portals statedPortals(std::span<const Portal> portals, const Camera& camera) {
-    Portals stated{{}, kMostShare};
+    Portals stated{{}, kMostAimed};
     for (Portal p : portals.first(std::min(portals.size(), kMostPortals))) {
         const glm::dvec3 normal = glm::cross(glm::dvec3(p.edgeA), glm::dvec3(p.edgeB));
         if (glm::dot(normal, camera.position - glm::dvec3(p.corner)) < 0)
