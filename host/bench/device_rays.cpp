@@ -57,9 +57,9 @@ std::optional<gpu::TracedRay> shadowRay(const reference::Lights& lights, const S
     const size_t count = lights.broadCount() + lights.deltaCount();
     if (count == 0) return {};
     const auto index = size_t(random.next() * double(count));
-    const reference::LightSample light = index < lights.broadCount()
-                                             ? lights.sampleBroad(index, s, random)
-                                             : lights.sampleDelta(index - lights.broadCount(), s, random);
+    const reference::LightSample light =
+        index < lights.broadCount() ? lights.sampleBroad(index, s, random)
+                                    : lights.sampleDelta(index - lights.broadCount(), s, random);
     const bool lit = light.value.x > 0 || light.value.y > 0 || light.value.z > 0;
     if (!lit || glm::dot(s.geometric, light.direction) <= 0) return {};
     if (light.infinite) return leave(s, light.direction, kInfinite);
