@@ -47,7 +47,8 @@ double sizeOf(const Corners& corners) {
 Portal rectangleAround(const Corners& corners, const glm::dvec3& normal) {
     Portal best;
     double least = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < corners.size(); ++i) {
+    constexpr size_t kMostEdges = 4096; // of larger meshes, some
+    for (size_t i = 0; i < corners.size(); i += 1 + corners.size() / kMostEdges) {
         const glm::dvec3 edge = corners[i % 3 == 2 ? i - 2 : i + 1] - corners[i];
         const glm::dvec3 level = edge - glm::dot(edge, normal) * normal;
         if (!(glm::length(level) > 0)) continue;
@@ -66,7 +67,7 @@ Portal rectangleAround(const Corners& corners, const glm::dvec3& normal) {
     return best;
 }
 
-/// Of a triangle in the world.
+/// Whether a triangle is in the world and belongs to the object.
 bool isOf(const Scene& scene, size_t triangle, uint32_t instance) {
     return triangle >= scene.firstInWorld() && scene.triangles[triangle].instance == instance;
 }
@@ -87,6 +88,11 @@ Portal portalOf(Scene& scene, const std::string& name, uint32_t instance) {
     for (size_t i = 0; i < scene.triangles.size(); ++i)
         for (const uint32_t corner : scene.triangles[i].corner)
             if (isOf(scene, i, instance)) corners.emplace_back(scene.positions[corner]);
+    if (corners.empty())
+        throw SceneError(fmt::format("{}: --portal: object '{}' has no triangles of its own: "
+                                     "expected a rectangle (--instances off copies a mesh that "
+                                     "several objects share)",
+                                     scene.file, name));
     const glm::dvec3 normal = normalOf(corners);
     const bool isFlat = std::ranges::all_of(corners, [&](const glm::dvec3& p) {
         return std::abs(glm::dot(p - corners[0], normal)) <= kTolerance * sizeOf(corners);

@@ -213,7 +213,7 @@ constexpr Row<SceneRequest> kReadingRows[] = {
      [](SceneRequest& s, Name n, const Value& v) {
          s.ground = {true, color(n, v, 1, "one or three shares in [0, 1]")};
      }},
-    {"portals", "objects, with commas between, that are openings to the sky in place of surfaces",
+    {"portal", "objects, with commas between, that are openings to the sky in place of surfaces",
      [](SceneRequest& s, Name n, const Value& v) { s.portals = names(n, v, "names of objects"); }},
     {"environment_rotation", "degrees about the vertical",
      [](SceneRequest& s, Name n, const Value& v) {

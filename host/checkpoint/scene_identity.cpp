@@ -168,6 +168,7 @@ static_assert(sizeof(Sphere) == 6 * sizeof(uint32_t), "has padding, or a new mem
 static_assert(sizeof(Prototype) == 2 * sizeof(uint32_t), "has padding, or a new member");
 static_assert(sizeof(Placement) == 14 * sizeof(uint32_t), "has padding, or a new member");
 static_assert(sizeof(VertexAttributes) == 12 * sizeof(float), "has padding, or a new member");
+static_assert(sizeof(Portal) == 9 * sizeof(float), "has padding, or a new member");
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
 
 } // namespace
@@ -197,6 +198,7 @@ uint32_t sceneIdentity(const Scene& scene, const Camera& camera) {
     sum.addAll(scene.attributes);
     sum.addAll(scene.attributeCorners);
     if (scene.environment) add(sum, *scene.environment);
+    if (!scene.portals.empty()) sum.addAll(scene.portals);
     // A scene without media has the sum that it had before there were any.
     for (const Medium& m : scene.media)
         add(sum, m);

@@ -48,8 +48,8 @@ void declareCs184(OptionList& list, SceneAndPicture& work, Asked& asked) {
                 [&work, &asked] { useCs184(work, asked); })
             .changesDefaults(std::move(defaults))
             .excludes("--view", "it has a tone curve of its own");
-    for (const char* other : {"--env", "--sun", "--ground", "--portal", "--fog", "--shadow-catcher",
-                              "--clamp-indirect", "--preset"})
+    for (const char* other : {"--env", "--sun", "--ground", "--portal", "--portals", "--fog",
+                              "--shadow-catcher", "--clamp-indirect", "--preset"})
         option.excludes(other);
 }
 

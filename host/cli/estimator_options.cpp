@@ -125,6 +125,11 @@ void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& ask
     if (work.picture.guiding == Guiding::On && !samplesLights(e.directLight))
         throw UsageError(fmt::format("--guiding on needs lights that are sampled: not --direct {}",
                                      nameOf(e.directLight)));
+    if (work.picture.portals == PortalUse::On && backend == BackendChoice::Reference)
+        c.host.remarks.emplace_back("the reference aims at no portals: --portals ignored");
+    if (work.picture.portals == PortalUse::On && !samplesLights(e.directLight))
+        throw UsageError(fmt::format("--portals on needs lights that are sampled: not --direct {}",
+                                     nameOf(e.directLight)));
     if (c.has("--gap-proposal") && e.gapProposal && backend == BackendChoice::Reference)
         c.host.remarks.emplace_back("the reference makes no gap proposal: --gap-proposal ignored");
     if (c.has("--gap-proposal") && e.gapProposal && !samplesLights(e.directLight))

@@ -155,7 +155,8 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     list.list("--portal", "NAME",
               "objects, with commas between, that are no surfaces, but rectangles through which "
               "the sky is seen: light samples to it aim at them",
-              scene.portals);
+              scene.portals)
+        .separatedByCommas = true;
     list.words("--fog", "DENSITY",
                "fills the scene with fog of that extinction per metre; DENSITY,R,G,B: of a colour; "
                "and ,G behind either: its light goes forwards (up to 0.9999) or back (-0.9999)",

@@ -95,8 +95,6 @@ std::string commandOf(const ViewOptions& o, const view::Viewed& viewed) {
     if (viewed.denoised) parts.emplace_back("--denoise on");
     if (o.picture.guiding != Guiding::Automatic)
         parts.push_back(fmt::format("--guiding {}", nameOf(o.picture.guiding)));
-    if (o.picture.portals != PortalUse::Automatic)
-        parts.push_back(fmt::format("--portals {}", nameOf(o.picture.portals)));
     std::string stem = std::filesystem::path(o.scene.source).stem().string();
     if (stem.empty() || o.scene.source.find(':') != std::string::npos) stem = "view";
     parts.push_back("-o " + shellQuoted(stem + ".png"));

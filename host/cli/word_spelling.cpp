@@ -1,5 +1,9 @@
 #include "host/cli/word_spelling.hpp"
 
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -73,7 +77,11 @@ Words withMissingWords(const OptionList& list, const Words& words) {
     for (size_t i = 0; i < words.size(); ++i) {
         all.push_back(words[i]);
         for (const CommandOption& o : list.all()) {
-            if (o.ifMissing.empty() || std::ranges::count(o.dashedNames(), words[i]) == 0) continue;
+            if (o.ifMissing.empty()) continue;
+            for (const std::string& name : o.dashedNames())
+                if (words[i] == name + "=")
+                    throw UsageError(fmt::format("{}: expected a word behind its =", name));
+            if (std::ranges::count(o.dashedNames(), words[i]) == 0) continue;
             if (i + 1 == words.size() || !o.isItsOwn(words[i + 1])) all.push_back(o.ifMissing);
         }
     }

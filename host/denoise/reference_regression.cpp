@@ -26,7 +26,7 @@ class Equations {
         }
     }
 
-    /// Of the solution, by elimination of the features one after the other.
+    /// The solution's part, by elimination of the features one after the other.
     glm::dvec3 constant() const {
         const double sum = matrix_[kConstant][kConstant];
         if (!(sum > 0)) return glm::dvec3(0.0);

@@ -48,7 +48,8 @@ RenderRequest toGoOn(RenderRequest request, const Keeping& keeping) {
     if (!request.branches) request.branches = branches;
     if (request.guiding == Guiding::Automatic)
         request.guiding = begun.guidesLight ? Guiding::On : Guiding::Off;
-    request.portals = begun.aimsAtPortals ? PortalUse::On : PortalUse::Off;
+    if (request.portals == PortalUse::Automatic)
+        request.portals = begun.aimsAtPortals ? PortalUse::On : PortalUse::Off;
     const uint32_t paths = request.budget.pathsPerPixel();
     if (*request.branches == branches && paths != kMostSamples && paths % branches != 0)
         throw UsageError(fmt::format("-s {} is not a multiple of the {} --branches of {}", paths,

@@ -242,7 +242,7 @@ struct Room {
     double every = 4; ///< so many
 };
 
-/// Of the groups, those that gain; `worth` becomes what there is with them.
+/// Those of the groups that gain; `worth` becomes what there is with them.
 std::vector<Opening> worthwhile(std::vector<Opening> groups, const Room& room, size_t most,
                                 Worth& worth) {
     constexpr double kLeastThrough = 8, kLeastGain = 1.01;

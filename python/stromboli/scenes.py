@@ -107,7 +107,7 @@ def load(
     environment: Union[None, str, os.PathLike[str], Color] = None,
     sun: Optional[Sequence[float]] = None,
     ground: Optional[Color] = None,
-    portals: Optional[str] = None,
+    portal: Optional[str] = None,
     environment_rotation: Optional[float] = None,
     environment_strength: Optional[float] = None,
     fog: Optional[float] = None,
@@ -127,7 +127,7 @@ def load(
     sun -- a clear sky: degrees clockwise from -z seen from above, degrees above the horizon, and
     maybe haze, 1 to 10
     ground -- a floor under all there is, of this colour, [0, 1]
-    portals -- names of objects, with commas between, that are openings to the sky, not surfaces
+    portal -- names of objects, with commas between, that are openings to the sky, not surfaces
     environment_rotation -- degrees about the vertical, counter-clockwise seen from above
     environment_strength -- multiplies its radiance
     fog -- extinction of fog that fills the scene, per metre
@@ -148,7 +148,7 @@ def load(
             "environment": environment,
             "sun": sun,
             "ground": ground,
-            "portals": portals,
+            "portal": portal,
             "environment_rotation": environment_rotation,
             "environment_strength": environment_strength,
             "fog": fog,

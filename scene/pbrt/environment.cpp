@@ -97,16 +97,21 @@ DirectionMap readDirectionMap(Context& context, const Parameters& light, const s
 /// Four corners of a rectangle, one after the other, in the world.
 void Surroundings::addPortal(const Parameters& light) {
     const std::vector<glm::dvec3> p = light.points("portal");
-    const bool isRectangle =
-        p.size() == 4 && build::inRange(p[0]) && build::inRange(p[1]) && build::inRange(p[3]) &&
-        glm::length(p[1] - p[0]) > 0 && glm::length(p[3] - p[0]) > 0 &&
-        std::abs(glm::dot(glm::normalize(p[1] - p[0]), glm::normalize(p[3] - p[0]))) < 1e-3;
+    const auto isCorner = [&](const glm::dvec3& at) { return build::inRange(at); };
+    bool isRectangle = p.size() == 4 && std::ranges::all_of(p, isCorner);
+    if (isRectangle) {
+        const glm::dvec3 a = p[1] - p[0], b = p[3] - p[0];
+        const double size = glm::length(a) + glm::length(b);
+        isRectangle = glm::length(a) > 0 && glm::length(b) > 0 &&
+                      std::abs(glm::dot(glm::normalize(a), glm::normalize(b))) < 1e-3 &&
+                      glm::distance(p[2], p[1] + b) < 1e-3 * size;
+    }
     if (!isRectangle)
         return light.replace(build::Shortfall::Model,
                              "has a portal that is not the four corners of a rectangle",
                              "light from everywhere");
     context_.builder.addPortal(p[0], p[1] - p[0], p[3] - p[0]);
-    context_.report().assume("light 'infinite': light samples aim at its portal, but light comes "
+    context_.report().assume("light 'infinite': its portal says where samples aim, and light comes "
                              "through all other openings as well");
 }
 

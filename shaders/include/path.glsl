@@ -44,7 +44,7 @@ void finishShadowRay(const Frame frame, inout PathState path) {
 
 void finishHemisphereRay(const Frame frame, inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
-    vec3 arriving = BOUNCES_FIND_ALL_LIGHT ? skyFrom(frame, path.ray.origin, path.ray.direction, path.departureTable, path.ray.direction).radiance : vec3(0.0);
+    vec3 arriving = BOUNCES_FIND_ALL_LIGHT ? skyFrom(frame, path.departurePoint, path.ray.direction, path.departureTable, path.ray.direction).radiance : vec3(0.0);
     if (hit) {
         const SurfacePoint s = surfaceAt(path.ray);
         arriving = emissionAt(s, materialAt(s));
@@ -70,7 +70,7 @@ void arrive(const Given given, inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE, inMedium = scattersInMedium(path.ray);
     path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
-    if (!hit) sky = skyFrom(given.frame, path.ray.origin, path.departureNormal, path.departureTable, path.ray.direction);
+    if (!hit) sky = skyFrom(given.frame, path.departurePoint, path.departureNormal, path.departureTable, path.ray.direction);
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.filling.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
@@ -190,7 +190,9 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     path.countsEmission = emissionCounts(given.frame, path, b.lobe);
     path.bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
     path.departureNormal = shadingNormal(path.surface);
-    path.departureTable = sideLit(path.surface, path.material, transmitted).table;
+    const SurfacePoint lit = sideLit(path.surface, path.material, transmitted);
+    path.departureTable = lit.table;
+    path.departurePoint = litPoint(lit);
     if (isLitFromBothSides(lobesOf(path.material))) { // as light samples of that side are taken
         path.bouncePdf *= 2.0;
         path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
@@ -208,6 +210,7 @@ void beginSample(const Frame frame, inout PathState path) {
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
     path.departureTable = GUIDES_LIGHT ? GUIDE_NODES : OWN_TABLE;
+    path.departurePoint = frame.cameraPosition;
     path.filling = fillingOf(HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM);
     path.splitPoint.bounce = 0u;
     path.branchesLeft = 0u;

@@ -57,6 +57,7 @@ struct PathState {
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
+    vec3 departurePoint;  ///< likewise: where its light samples were taken (litPoint()), with PORTALS
     uint departureTable;  ///< likewise: by which its light samples choose tiles of the environment (guide.glsl)
 
     // Where samples are of what the camera sees (SEES):

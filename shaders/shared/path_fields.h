@@ -80,6 +80,7 @@
     F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(vec3, path.departurePoint, PORTALS != 0u, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.departureTable, GUIDES_LIGHT, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.firstNormal, SEES_SURFACES, BY_ALL | AT_PAUSE, BY_FOLLOW | AT_PAUSE) \
     F(vec3, path.arrivalNumbers, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \

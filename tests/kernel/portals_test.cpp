@@ -140,6 +140,38 @@ TEST_F(PortalLight, AnyPortalsHaveNoBias) {
     expectNoBias(ambient, "ambient light");
 }
 
+/// A portal in the plane of a surface, or of a wall, faces points of it by rounding alone: both
+/// densities that are weighted against each other have to see it alike. One portal, so that there
+/// is no other one that these points aim at.
+TEST_F(PortalLight, InThePlaneOfASurfaceHasNoBias) {
+    scenes::SceneMaker b;
+    const uint32_t white = b.add(scenes::diffuse(0.6f));
+    b.quad({-5, 0.1f, -5}, {0, 0, 10}, {10, 0, 0}, white);
+    view_ = lookingAt({0, 2, 2}, {0, 0.1, 0}, 0.5);
+    const auto brightness = [&](const Scene& scene, const Portals& portals) {
+        settings_.estimator.aimsAtPortals = !portals.all.empty();
+        double mean = 0;
+        for (const PixelStatistics& p : pictureOf(scene, portals).pixels)
+            mean += p.mean.y;
+        return mean;
+    };
+    const Portals inFloor{{{{-2, 0.1f, -2}, {0, 0, 4}, {4, 0, 0}}}, 0.75};
+    Scene constant = b.scene;
+    constant.lights.emplace_back().kind = LightKind::Ambient;
+    constant.lights.back().color = glm::vec3(1);
+    EXPECT_NEAR(brightness(constant, inFloor) / brightness(constant, {}), 1, 1e-3);
+    Scene picture = b.scene;
+    picture.environment = roughSky();
+    picture.environment->radiance.assign(picture.environment->radiance.size(), glm::vec3(1));
+    EXPECT_NEAR(brightness(picture, inFloor) / brightness(picture, {}), 1, 5e-3);
+    // The wall of the window, seen from within.
+    view_ = lookingAt({0.9, 0.1, 0.7}, {-1, 0.1, 0.7}, 0.2);
+    settings_.budget.mostSamplesPerPixel = 256;
+    const Scene room = roomWithWindow(1);
+    const Portals inWall{{{{-1, -0.5f, -0.5f}, {0, 1, 0}, {0, 0, 1}}}, 0.75};
+    EXPECT_NEAR(brightness(room, inWall) / brightness(room, {}), 1, 0.01);
+}
+
 TEST_F(PortalLight, HasLessNoiseThroughAWindow) {
     const Scene scene = roomWithWindow(0.5f);
     settings_.estimator.aimsAtPortals = false;

@@ -14,6 +14,7 @@
 #include <latch>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 using namespace test;
 
 /// A device's kernel. Waits before its first piece until both devices have one, and may be lost in
-/// the middle of its second.
+/// the middle of it.
 class Shared final : public Backend {
   public:
     Shared(std::shared_ptr<VulkanBackend> inner, bool isFragile, std::shared_ptr<std::latch> both)
@@ -29,8 +30,9 @@ class Shared final : public Backend {
 
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override {
-        if (++pieces_ == 1) both_->arrive_and_wait();
-        const bool isLost = isFragile_ && pieces_ == 2;
+        const bool isFirst = std::exchange(takesFirst_, false);
+        if (isFirst) both_->arrive_and_wait();
+        const bool isLost = isFragile_ && isFirst; // the other may take all pieces after it
         inner_->sample(isLost ? targets.first((targets.size() + 1) / 2) : targets, film, progress);
         if (isLost) throw DeviceLostError("lost");
     }
@@ -49,7 +51,7 @@ class Shared final : public Backend {
     std::shared_ptr<VulkanBackend> inner_;
     bool isFragile_;
     std::shared_ptr<std::latch> both_;
-    int pieces_ = 0;
+    bool takesFirst_ = true;
 };
 
 class DevicesTogether : public DeviceTest {

@@ -185,13 +185,13 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         gpu::Frame f = patterns.several<gpu::Frame>()[1];
         f.lightCount = 1; // where the table's nodes and columns begin: expectTable()
         shader.setOne(BINDING_FRAME, f);
-        expected_.structure("Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp,
-                            f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
-                            f.farDistance, f.gapWidth, f.seed, f.minBounce, f.maxBounces,
-                            f.terminationProbability, f.lightCount, f.areaLights,
-                            f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight,
-                            f.lightsInGroup0, f.lightsInGroup1, f.lightsInGroup2, f.lensRadius,
-                            f.focusDistance, f.cameraMedium, f.notedSamples);
+        expected_.structure(
+            "Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp, f.firstSample,
+            f.cameraBack, f.keepsValue, f.nearDistance, f.farDistance, f.gapWidth, f.seed,
+            f.minBounce, f.maxBounces, f.terminationProbability, f.lightCount, f.areaLights,
+            f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight, f.lightsInGroup0,
+            f.lightsInGroup1, f.lightsInGroup2, f.lensRadius, f.focusDistance, f.cameraMedium,
+            f.notedSamples, f.portalShare, f.unused0, f.unused1, f.unused2);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
@@ -262,7 +262,7 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::LightHeader) + sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) +
         sizeof(gpu::LightNode) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
         sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + 4 + 4 + (4 + 4 + 8) + 36 + 12 + 4 + 16 + 8u);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + 4 + 4 + (4 + 4 + 8) + 40 + 12 + 4 + 16 + 8u);
 }
 
 } // namespace
