@@ -1,4 +1,4 @@
-// Numbers, units and sizes as they are written.
+// Numbers, units and sizes as they are written, and words that may be missing.
 #include "host/cli/declared_command.hpp"
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
@@ -71,6 +71,63 @@ TEST(Spelling, SizesMayBeOneWord) {
     EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "-r", "640"}), UsageError);
     EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "-r", "640x"}), UsageError);
     EXPECT_EQ(parse({"render", "4x4", "-o", "a.png"}).scene.source, "4x4");
+}
+
+TEST(Spelling, WatchNeedsNoPort) {
+    const auto portOf = [](std::vector<std::string> words) {
+        words.insert(words.begin(), "render");
+        const RenderOptions o = parse(words);
+        EXPECT_EQ(o.scene.source, "a.dae");
+        EXPECT_EQ(o.output.file, "a.png");
+        return o.watch.port;
+    };
+    EXPECT_EQ(portOf({"a.dae", "-o", "a.png"}), std::nullopt);
+    EXPECT_EQ(portOf({"a.dae", "-o", "a.png", "--watch"}), 0u);
+    EXPECT_EQ(portOf({"--watch", "a.dae", "-o", "a.png"}), 0u);
+    EXPECT_EQ(portOf({"--watch", "-o", "a.png", "a.dae"}), 0u);
+    EXPECT_EQ(portOf({"-o", "a.png", "--watch", "-r", "8", "9", "a.dae"}), 0u);
+    EXPECT_EQ(portOf({"--watch", "8080", "a.dae", "-o", "a.png"}), 8080u);
+    EXPECT_EQ(portOf({"--watch=8080", "a.dae", "-o", "a.png"}), 8080u);
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "--watch", "65536"}), UsageError);
+}
+
+TEST(Spelling, DenoiserAndGroundNeedNoWord) {
+    const auto parsed = [](std::vector<std::string> words) {
+        words.insert(words.begin(), "render");
+        RenderOptions o = parse(words);
+        EXPECT_EQ(o.scene.source, "a.dae");
+        EXPECT_EQ(o.output.file, "a.png");
+        return o;
+    };
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"a.dae", "-o", "a.png", "--denoise", "--ground"},
+          {"--denoise", "a.dae", "--ground", "-o", "a.png"},
+          {"--ground", "a.dae", "--denoise", "--exposure", "auto", "-o", "a.png"},
+          {"a.dae", "-o", "a.png", "--denoise", "on", "--ground", "on"}}) {
+        const RenderOptions o = parsed(words);
+        EXPECT_EQ(o.picture.denoiser, Denoiser::On);
+        EXPECT_TRUE(o.scene.ground.isGiven);
+        EXPECT_EQ(o.scene.ground.color, glm::vec3(0.5f));
+    }
+    EXPECT_EQ(parsed({"--denoise", "oidn", "a.dae", "-o", "a.png"}).picture.denoiser,
+              Denoiser::Oidn);
+    EXPECT_EQ(parsed({"--ground", "0.2,0.3,.4", "a.dae", "-o", "a.png"}).scene.ground.color,
+              glm::vec3(0.2f, 0.3f, 0.4f));
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "--denoise", "oidm"}), UsageError)
+        << "a word that is nearly one of its own";
+}
+
+TEST(Spelling, PortalsAreObjectsAndMayBeLeftOut) {
+    const auto parsed = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"render", "a.dae", "-o", "a.png"});
+        return parse(words);
+    };
+    EXPECT_TRUE(parsed({}).scene.portals.empty());
+    EXPECT_EQ(parsed({}).picture.portals, PortalUse::Automatic);
+    EXPECT_EQ(parsed({"--portals", "off"}).picture.portals, PortalUse::Off);
+    const std::vector<std::string> both = {"left", "right"};
+    EXPECT_EQ(parsed({"--portal", "left,right"}).scene.portals, both);
+    EXPECT_EQ(parsed({"--portal", "left", "--portal", "right"}).scene.portals, both);
 }
 
 } // namespace
