@@ -136,10 +136,12 @@ std::string cell(const KernelReport& report, const Column& column) {
 /// Those of one scene.
 void printKernels(const vulkan::Device& device, const KernelsOptions& options) {
     const auto [scene, picture] = preparePicture(options);
-    const BuiltScene built = buildScene(*scene.scene, picture.settings.estimator, toTerminal());
+    const Estimator& estimator = picture.settings.estimator;
+    BuiltScene built = buildScene(*scene.scene, estimator, toTerminal());
+    built.gpu.portals = portalsFor(*scene.scene, built.gpu, picture.camera, estimator);
     nowDoing("compiling", StatusLine::OfOthers);
     const std::vector<KernelReport> reports =
-        reportKernels(device, built.gpu, picture.camera, picture.settings.estimator);
+        reportKernels(device, built.gpu, picture.camera, estimator);
     fmt::print("\n{}\n{:<12}", printable(options.scene.source), "kernel");
     for (const Column& column : columns())
         fmt::print(" {:>12}", column.title);

@@ -196,8 +196,9 @@ int infoCommand(const InfoOptions& options) {
     PreparedPicture prepared = preparePicture(options);
     const auto& [scene, picture] = prepared;
     const RenderSettings& settings = picture.settings;
-    const BuiltScene built = buildScene(*scene.scene, settings.estimator, toTerminal());
-    if (liesOpen(built.gpu, picture.camera))
+    BuiltScene built = buildScene(*scene.scene, settings.estimator, toTerminal());
+    built.gpu.portals = portalsFor(*scene.scene, built.gpu, picture.camera, settings.estimator);
+    if (!built.gpu.portals.all.empty() || liesOpen(built.gpu, picture.camera))
         prepared.picture.settings.estimator.guidesLight = false; // else it is tried
     nowDoing("printing", StatusLine::OfOthers);
     if (!options.jsonFile.empty()) {

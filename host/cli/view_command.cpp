@@ -33,10 +33,11 @@ constexpr Range<uint32_t> kPorts{0, 65535};
 
 /// Options that say what the page has a word in.
 const Words& ofThePage() {
-    static const Words kNames = {
-        "-r",          "--crop",    "--view",       "--exposure", "--denoise",  "--host",
-        "--port",      "--open",    "--camera",     "--fov",      "--aperture", "--focus",
-        "--look-from", "--look-at", "--env-rotate", "--sun",      "--variant",  "--at"};
+    static const Words kNames = {"-r",          "--crop",    "--view",       "--exposure",
+                                 "--denoise",   "--host",    "--port",       "--open",
+                                 "--camera",    "--fov",     "--aperture",   "--focus",
+                                 "--look-from", "--look-at", "--env-rotate", "--sun",
+                                 "--variant",   "--at",      "--guiding"};
     return kNames;
 }
 const Words& ofTheCamera() {

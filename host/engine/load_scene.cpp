@@ -3,6 +3,8 @@
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
+#include "host/kernel/find_portals.hpp"
+#include "host/kernel/kernel_features.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/read_scene.hpp"
 
@@ -135,6 +137,13 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
     built.seconds = watch.seconds();
     listener.doing(Stage::Preparing, "opening the device and compiling the kernel"); // comes next
     return built;
+}
+
+Portals portalsFor(const Scene& scene, const GpuScene& built, const Camera& camera,
+                   const Estimator& estimator) {
+    if (!aimsAtPortals(built, estimator)) return {};
+    return scene.portals.empty() ? findPortals(built.bvh, camera)
+                                 : statedPortals(scene.portals, camera);
 }
 
 } // namespace stromboli

@@ -94,4 +94,9 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
                       KeptParts* kept = nullptr, uint64_t gatheredRows = kUsualGatheredRows,
                       const GpuScene* before = nullptr);
 
+/// Where light samples of a picture aim: at the scene's portals, or else at those that are found
+/// for what this camera sees. Empty where its samples go to no sky, or shall aim at none.
+Portals portalsFor(const Scene& scene, const GpuScene& built, const Camera& camera,
+                   const Estimator& estimator);
+
 } // namespace stromboli

@@ -243,11 +243,8 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
 /// Those of the camera, which may stand in another room than that of the picture before.
 void Renderer::setPortals() {
     GpuScene& scene = built_->gpu;
-    scene.portals = {};
-    if (!aimsAtPortals(scene, settings_.estimator)) return;
+    scene.portals = portalsFor(*scene_, scene, camera_, settings_.estimator);
     const bool areStated = !scene_->portals.empty();
-    scene.portals =
-        areStated ? statedPortals(scene_->portals, camera_) : findPortals(scene.bvh, camera_);
     if (const size_t count = scene.portals.all.size(); count > 0)
         listener_.detail(fmt::format("light samples aim at {} {} that the sky is seen through{}",
                                      count, count == 1 ? "rectangle" : "rectangles",

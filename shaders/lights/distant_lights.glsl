@@ -40,7 +40,6 @@ LightSample sampleDirectionalLight(LightRows rows) {
     return LightSample(w, true, w, colorOf(rows), 0.0);
 }
 
-
 /// What a ray finds that meets nothing: the scene's ambient light or environment. It is the first in the
 /// light buffer, if the scene has one; a kernel with everything switched on does not know without looking.
 struct FoundSky {

@@ -96,7 +96,8 @@ PortalSample samplePortals(const Frame frame, vec3 p, vec3 n, inout vec2 u) {
     PortalSample r = PortalSample(first && s.weight > 0.0, s.index, vec3(0.0, 0.0, 1.0));
     if (r.isAimed) {
         const vec3 normal = planeNormal(s.edgeA, s.edgeB), both = cross(s.edgeA, s.edgeB);
-        const SolidAngleSample a = sampleQuadByAngle(s.corner, s.edgeA, s.edgeB, dot(s.corner, normal), dot(both, normal), vec2(within, u.y));
+        const SolidAngleSample a = sampleQuadByAngle(s.corner, s.edgeA, s.edgeB, dot(s.corner, normal), dot(both, normal),
+                                                     vec2(within, u.y));
         r.direction = unit(s.corner + a.weights.x * s.edgeA + a.weights.y * s.edgeB);
     } else if (s.weight > 0.0) {
         u.x = min((u.x - frame.portalShare) / (1.0 - frame.portalShare), 1.0 - UNIT_ROUNDOFF);
@@ -116,10 +117,11 @@ float skyInversePdf(const Frame frame, PortalDensity d, float inverseOwnPdf) {
 /// brings nothing: then the densities are those of directions that belong to each.
 LightSample skySample(const Frame frame, vec3 p, vec3 n, PortalSample aimed, vec3 w, vec3 radiance, float inverseOwnPdf) {
     float inversePdf = inverseOwnPdf;
+    bool isOwn = true;
     if (PORTALS > 0u) {
         const PortalDensity d = portalDensity(p, n, w);
         inversePdf = skyInversePdf(frame, d, inverseOwnPdf);
-        if (aimed.isAimed && d.portal != aimed.portal) inversePdf = 0.0;
+        isOwn = !aimed.isAimed || d.portal == aimed.portal;
     }
-    return LightSample(w, true, w, radiance * inversePdf, inversePdf);
+    return LightSample(w, true, w, isOwn ? radiance * inversePdf : vec3(0.0), inversePdf);
 }

@@ -83,8 +83,8 @@ SHARED_ROWS(DenoiseResult, 3);
 /// by the layer's own noise.
 SHARED_CONST float DENOISE_LEAST_ALBEDO = 0.05f;
 
-/// How unlike surfaces may be, of the pilot and of the two candidates that are means: what a difference of albedo, normals (of length 1) and
-/// depth (relative) is divided by, squared.
+/// How unlike surfaces may be, of the pilot and of the two candidates that are means: what a difference of albedo,
+/// normals (of length 1) and depth (relative) is divided by, squared.
 SHARED_CONST vec3 DENOISE_PILOT_SCALE = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.2f * 0.2f), 1.0f / (0.03f * 0.03f));
 SHARED_CONST vec3 DENOISE_STRICT_SCALE = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.1f * 0.1f), 1.0f / (0.02f * 0.02f));
 SHARED_CONST vec3 DENOISE_WIDE_SCALE = vec3(1.0f / (0.2f * 0.2f), 1.0f / (0.15f * 0.15f), 1.0f / (0.03f * 0.03f));
