@@ -240,7 +240,7 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
     resident_ = residentMemory();
 }
 
-/// Those of the camera, which may stand in another room than that of the picture before.
+/// The portals are found anew for each camera: it may stand in another room than the one before.
 void Renderer::setPortals() {
     GpuScene& scene = built_->gpu;
     scene.portals = portalsFor(*scene_, scene, camera_, settings_.estimator);

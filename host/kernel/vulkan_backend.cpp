@@ -181,7 +181,8 @@ std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSe
     return std::make_unique<PersistentDispatcher>(target, *kernels.front(), settings);
 }
 
-/// Any where the kernel reads none.
+/// The buffer by which light samples to the sky choose where they go: portals, or the guide.
+/// Kernels without either read nothing of it, and get one that is there in any case.
 const vulkan::Buffer& VulkanBackend::whereSamplesGo(bool areNoted) const {
     if (portals_) return *portals_;
     return estimator_.guidesLight && !areNoted ? *guide_ : *filter_;

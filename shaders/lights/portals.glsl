@@ -9,7 +9,9 @@ struct SeenPortal {
     float weight;   ///< with which it is chosen; 0: it does not shine on the surface
 };
 
-/// A bound of the solid angle that it takes up times one of the cosine at the surface. n: NOWHERE in a medium.
+/// weight: an approximation of the solid angle that the portal takes up (steradians), times a bound of the cosine at the
+/// surface with the unit normal n; in a medium (isNowhere(n)) the angle alone. Both densities below have the same weights,
+/// so that these decide about noise and put no bias on the picture.
 SeenPortal seePortal(uint index, vec3 p, vec3 n) {
     const uvec4 r0 = ROW(guideRows, PORTAL_ROWS * index), r1 = ROW(guideRows, PORTAL_ROWS * index + 1u),
                 r2 = ROW(guideRows, PORTAL_ROWS * index + 2u);

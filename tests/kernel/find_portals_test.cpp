@@ -65,6 +65,18 @@ TEST(FindPortals, FindsEachOfTwoWindows) {
     expectBox(found.all[1], {-1, -0.25f, -0.25f}, {-1, 0.25f, 0.25f});
 }
 
+/// A post stands in the middle of the window: one rectangle around both would aim at the post, too.
+TEST(FindPortals, TellsWindowsOfOneWallApart) {
+    scenes::SceneMaker b;
+    b.scene = roomWithWindow(1);
+    b.quad({-1, -0.5f, -0.15f}, {0, 1, 0}, {0, 0, 0.3f}, b.scene.triangles.front().material);
+    Portals found = foundIn(b.scene);
+    ASSERT_EQ(found.all.size(), 2u);
+    std::ranges::sort(found.all, {}, [](const Portal& p) { return p.corner.z + p.edgeA.z; });
+    expectBox(found.all[0], {-1, -0.5f, -0.5f}, {-1, 0.5f, -0.15f});
+    expectBox(found.all[1], {-1, -0.5f, 0.15f}, {-1, 0.5f, 0.5f});
+}
+
 TEST(FindPortals, FindsNothingInTheOpenInTheDarkAndOfNothing) {
     scenes::SceneMaker open;
     open.quad({-5, -1, -5}, {0, 0, 10}, {10, 0, 0}, open.add(scenes::diffuse(0.6f)));
