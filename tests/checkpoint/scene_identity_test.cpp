@@ -51,6 +51,8 @@ TEST(SceneIdentity, EveryMemberCounts) {
         [](Scene& s, Camera&) { s.textures.push_back({}); },
         [](Scene& s, Camera&) { s.attributes.push_back({}); },
         [](Scene& s, Camera&) { s.environment.emplace(); },
+        [](Scene& s, Camera&) { s.portals.emplace_back(); },
+        [](Scene& s, Camera&) { s.portals.emplace_back().edgeB.y = 2; },
         [](Scene& s, Camera&) {
             s.environment.emplace();
             s.environment->rotation = 1;

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace stromboli::test {
@@ -40,7 +42,9 @@ TEST(NamedPortals, AreRectanglesAndNoSurfaces) {
     const glm::vec3 a(0.6f, 0.8f, 0), b(0, 0, 3); // askew to the axes
     Scene scene = quads({{"wall", {glm::vec3(5), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}},
                          {"window", {glm::vec3(1, 2, 3), 2.0f * a, b}}});
-    scene.portals.resize(3); // of the file
+    scene.portals.resize(3);                   // of the file
+    auto& corners = scene.triangles[2].corner; // the window's first edge is its diagonal
+    std::rotate(std::begin(corners), std::begin(corners) + 2, std::end(corners));
     takePortals(scene, {"window"});
     ASSERT_EQ(scene.portals.size(), 1u);
     const Portal& p = scene.portals.front();
