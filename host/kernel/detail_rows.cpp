@@ -5,11 +5,15 @@
 #include "scene/model/surface_lookup.hpp"
 #include "shaders/shared/texture_types.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <utility>
 
 namespace stromboli {
 
@@ -46,12 +50,13 @@ uint32_t edged(int64_t i, uint32_t n, Wrap wrap) {
     return isFirst ? 0 : n - 1;
 }
 
-/// Pictures that some texture of the plan shows, each once, as gpu::TextureUse has them.
+/// Pictures that some texture of the plan shows, each once, as gpu::TextureUse has them. They are
+/// given rows as they are asked for, and packed together at the end.
 class TexelPacker {
   public:
-    /// rows: the detail buffer, which grows by each picture.
-    TexelPacker(const Scene& scene, const DetailPlan& plan, std::vector<Row>& rows)
-        : scene_(scene), plan_(plan), rows_(rows) {}
+    /// rows: the detail buffer, in which texels follow what is there.
+    TexelPacker(const Scene& scene, const DetailPlan& plan, RowPages& rows)
+        : scene_(scene), plan_(plan), rows_(rows), end_(rows.size()) {}
 
     /// gpu::TEXELS_PLAIN
     bool isPlain(const Texture& texture) const;
@@ -61,21 +66,32 @@ class TexelPacker {
     /// Bundles of the same pictures share their rows. Of no pictures: of one white texel.
     uint32_t firstRowOf(const DetailPlan::Bundle& bundle);
 
+    /// Packs all pictures that were asked for.
+    void pack();
+
   private:
     class EdgedTexels;
     using TexelWords = std::array<uint32_t, 2>; ///< of a gathered texture
 
-    Row* append(uint64_t rows);
-    void packPlain(const std::vector<uint32_t>& words);
-    void packGathered(const TextureImage& image, bool srgb, const EdgedTexels& at);
-    void packBundle(const DetailPlan::EdgedBundle& bundle, const EdgedTexels& at, uint32_t width,
-                    uint32_t height);
+    /// Rows that are alike to pack: those of a line of texels, from -1 on, or of a whole picture.
+    struct Lines {
+        size_t firstRow, rowsOfALine;
+        int64_t count;
+        std::function<void(int64_t line, Row* row)> pack;
+    };
+    void append(Lines lines);
+    void appendPlain(const std::vector<uint32_t>& words);
+    void appendGathered(const TextureImage& image, bool srgb, EdgedTexels at);
+    void appendBundle(const DetailPlan::EdgedBundle& bundle, EdgedTexels at, uint32_t width,
+                      uint32_t height);
     /// The row of a texel of a bundle, as gpu::TEXELS_BUNDLE describes it.
     Row bundleTexel(const DetailPlan::EdgedBundle& bundle, size_t texel) const;
 
     const Scene& scene_;
     const DetailPlan& plan_;
-    std::vector<Row>& rows_;
+    RowPages& rows_;
+    size_t end_; ///< of the rows that have been given away
+    std::vector<Lines> lines_;
     std::map<DetailPlan::EdgedImage, uint32_t> firstRowOfImage_, firstRowOfPlainImage_;
     std::map<DetailPlan::EdgedBundle, uint32_t> firstRowOfBundle_;
 };
@@ -110,65 +126,77 @@ uint32_t TexelPacker::firstRowOf(const Texture& texture) {
     const bool plain = isPlain(texture);
     if (plain) key.wrapU = key.wrapV = Wrap::Repeat, key.srgb = false;
     auto& known = plain ? firstRowOfPlainImage_ : firstRowOfImage_;
-    const auto [place, isNew] = known.try_emplace(key, uint32_t(rows_.size()));
+    const auto [place, isNew] = known.try_emplace(key, uint32_t(end_));
     if (!isNew) return place->second;
     if (plain)
-        packPlain(image.words);
+        appendPlain(image.words);
     else
-        packGathered(image, texture.srgb, EdgedTexels(image, texture.wrapU, texture.wrapV));
+        appendGathered(image, texture.srgb, EdgedTexels(image, texture.wrapU, texture.wrapV));
     return place->second;
 }
 
 uint32_t TexelPacker::firstRowOf(const DetailPlan::Bundle& bundle) {
     const DetailPlan::EdgedBundle edged(scene_, bundle);
-    const auto [known, isNew] = firstRowOfBundle_.try_emplace(edged, uint32_t(rows_.size()));
+    const auto [known, isNew] = firstRowOfBundle_.try_emplace(edged, uint32_t(end_));
     if (!isNew) return known->second;
     TextureImage white;
     white.width = white.height = 1;
     const TextureImage* size = &white;
     for (const uint32_t image : edged.images)
         if (image != edged.kNone) size = &scene_.images[image];
-    packBundle(edged, EdgedTexels(*size, edged.wrapU, edged.wrapV), size->width, size->height);
+    appendBundle(edged, EdgedTexels(*size, edged.wrapU, edged.wrapV), size->width, size->height);
     return known->second;
 }
 
-Row* TexelPacker::append(uint64_t rows) {
-    const size_t first = rows_.size();
-    rows_.resize(first + rows);
-    return rows_.data() + first;
+void TexelPacker::append(Lines lines) {
+    end_ += lines.rowsOfALine * size_t(lines.count);
+    lines_.push_back(std::move(lines));
 }
 
-void TexelPacker::packPlain(const std::vector<uint32_t>& words) {
+void TexelPacker::pack() {
+    rows_.resize(end_);
+    tbb::parallel_for(size_t(0), lines_.size(), [&](size_t i) {
+        const Lines& lines = lines_[i];
+        tbb::parallel_for(int64_t(0), lines.count, [&](int64_t line) {
+            lines.pack(line - 1, rows_.data() + lines.firstRow + size_t(line) * lines.rowsOfALine);
+        });
+    });
+}
+
+void TexelPacker::appendPlain(const std::vector<uint32_t>& words) {
     // Whole rows: of a part of a row, texel buffers read nothing.
-    Row* const rows = append((words.size() + 3) / 4);
-    for (size_t i = 0; i < words.size(); ++i)
-        rows[i / 4][i % 4] = words[i];
+    append({end_, (words.size() + 3) / 4, 1, [&words](int64_t, Row* rows) {
+                for (size_t i = 0; i < words.size(); ++i)
+                    rows[i / 4][i % 4] = words[i];
+            }});
 }
 
-void TexelPacker::packGathered(const TextureImage& image, bool srgb, const EdgedTexels& at) {
-    const auto& color = srgb ? byteTable().linearFractions : byteTable().fractions;
-    const auto texel = [&](size_t index) -> TexelWords {
+void TexelPacker::appendGathered(const TextureImage& image, bool srgb, EdgedTexels at) {
+    const auto texel = [&image, &color = srgb ? byteTable().linearFractions
+                                              : byteTable().fractions](size_t index) -> TexelWords {
         if (image.format == TexelFormat::RgbaHalf)
             return {image.words[2 * index], image.words[2 * index + 1]};
         const uint32_t w = image.words[index];
         return {color[byteOf(w, 0)] | color[byteOf(w, 1)] << 16,
                 color[byteOf(w, 2)] | byteTable().fractions[byteOf(w, 3)] << 16};
     };
-    Row* row = append((uint64_t(image.width) + 2) * (uint64_t(image.height) + 1));
-    for (int64_t y = -1; y < int64_t(image.height); ++y)
-        for (int64_t x = -1; x <= int64_t(image.width); ++x) {
-            const TexelWords upper = texel(at.line(y) + at.column(x)),
-                             lower = texel(at.line(y + 1) + at.column(x));
-            *row++ = {upper[0], upper[1], lower[0], lower[1]};
-        }
+    append({end_, size_t(image.width) + 2, int64_t(image.height) + 1,
+            [&image, texel, at = std::move(at)](int64_t y, Row* row) {
+                for (int64_t x = -1; x <= int64_t(image.width); ++x) {
+                    const TexelWords upper = texel(at.line(y) + at.column(x)),
+                                     lower = texel(at.line(y + 1) + at.column(x));
+                    *row++ = {upper[0], upper[1], lower[0], lower[1]};
+                }
+            }});
 }
 
-void TexelPacker::packBundle(const DetailPlan::EdgedBundle& bundle, const EdgedTexels& at,
-                             uint32_t width, uint32_t height) {
-    Row* row = append((uint64_t(width) + 2) * (uint64_t(height) + 2));
-    for (int64_t y = -1; y <= int64_t(height); ++y)
-        for (int64_t x = -1; x <= int64_t(width); ++x)
-            *row++ = bundleTexel(bundle, at.line(y) + at.column(x));
+void TexelPacker::appendBundle(const DetailPlan::EdgedBundle& bundle, EdgedTexels at,
+                               uint32_t width, uint32_t height) {
+    append({end_, size_t(width) + 2, int64_t(height) + 2,
+            [this, bundle, at = std::move(at), width](int64_t y, Row* row) {
+                for (int64_t x = -1; x <= int64_t(width); ++x)
+                    *row++ = bundleTexel(bundle, at.line(y) + at.column(x));
+            }});
 }
 
 Row TexelPacker::bundleTexel(const DetailPlan::EdgedBundle& bundle, size_t texel) const {
@@ -206,8 +234,7 @@ uint32_t bits(int32_t number, uint32_t count) {
 /// The attributes of all primitives, in the order of the tree's leaves.
 class AttributePacker {
   public:
-    AttributePacker(const Scene& scene, const WideLayout& bvh, uint32_t attributes,
-                    std::vector<Row>& rows)
+    AttributePacker(const Scene& scene, const WideLayout& bvh, uint32_t attributes, RowPages& rows)
         : scene_(scene), bvh_(bvh), attributes_(attributes), rows_(rows) {}
 
     void pack() {
@@ -262,7 +289,7 @@ class AttributePacker {
     const Scene& scene_;
     const WideLayout& bvh_;
     uint32_t attributes_;
-    std::vector<Row>& rows_;
+    RowPages& rows_;
 };
 
 /// All but where its texels are, and what they hold.
@@ -374,6 +401,7 @@ DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPl
         std::vector<Row>& rows = details.ofLights.emplace_back();
         if (light.picture) appendRows(rows, packUse(scene, *light.picture, texels));
     }
+    texels.pack();
     return details;
 }
 

@@ -11,7 +11,7 @@ namespace stromboli {
 
 /// What beside parameters and normals the kernel reads (shaders/shared/texture_types.h).
 struct DetailRows {
-    std::vector<Row> rows;                     ///< the detail buffer: attributes, then texels
+    RowPages rows;                             ///< the detail buffer: attributes, then texels
     std::vector<std::vector<Row>> ofLights;    ///< of each of the scene's: its picture's TextureUse
     std::vector<std::vector<Row>> ofMaterials; ///< by material: MaterialDetail and TextureUse rows;
                                                ///< empty where no material has any

@@ -1,6 +1,7 @@
 #include "host/kernel/facet_terms.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stromboli {
@@ -60,8 +61,18 @@ struct Scattered {
     double reflected = 0, transmitted = 0;
 };
 
+constexpr int kSectors = 48;
+
+/// Of the middles of the sectors of half a ring.
+std::array<double, kSectors> sectorCosines() {
+    std::array<double, kSectors> cosines;
+    for (int j = 0; j < kSectors; ++j)
+        cosines[size_t(j)] = std::cos(kPi * (j + 0.5) / kSectors);
+    return cosines;
+}
+
 Scattered scatteredBy(const Microfacets& facets, double eta, double cosine, int rings) {
-    constexpr int kSectors = 48;
+    static const std::array<double, kSectors> cosines = sectorCosines();
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), area = facets.area(cosine);
     Scattered sum;
     for (int i = 0; i < rings; ++i) {
@@ -70,8 +81,8 @@ Scattered scatteredBy(const Microfacets& facets, double eta, double cosine, int 
         const double left = 1 - (i + 0.5) / rings, ring = 2 * left / rings;
         const double z = 1 / std::sqrt(1 + facets.tangent2(1 - left * left));
         const double across = std::sqrt(1 - z * z);
-        for (int j = 0; j < kSectors; ++j) { // half of them: the other half is their mirror image
-            const double x = across * std::cos(kPi * (j + 0.5) / kSectors);
+        for (const double sector : cosines) { // half of them: the others are their mirror images
+            const double x = across * sector;
             const double cosO = sine * x + cosine * z;
             if (cosO <= 0) continue;
             double cosTransmitted = 0;

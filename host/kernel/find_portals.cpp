@@ -156,9 +156,12 @@ struct Opening {
     double through = 0; ///< free rays that pass it and no opening found before,
     double tried = 0;   ///< and all rays that would if nothing were in their way
 
+    bool holds(const glm::dvec2& p) const {
+        return p.x >= lo.x && p.y >= lo.y && p.x <= hi.x && p.y <= hi.y;
+    }
     bool isPassedBy(const Feeler& f) const {
         const std::optional<glm::dvec2> p = plane->passedBy(f);
-        return p && p->x >= lo.x && p->y >= lo.y && p->x <= hi.x && p->y <= hi.y;
+        return p && holds(*p);
     }
 };
 
@@ -242,22 +245,31 @@ struct Room {
     double every = 4; ///< so many
 };
 
-/// Those of the groups that gain; `worth` becomes what there is with them.
-std::vector<Opening> worthwhile(std::vector<Opening> groups, const Room& room, size_t most,
-                                Worth& worth) {
+/// Those of the groups that gain; `worth` becomes what there is with them. passed: where Room::some
+/// pass the plane; every: Room::every.
+std::vector<Opening> worthwhile(std::vector<Opening> groups, std::span<const glm::dvec2> passed,
+                                double every, size_t most, Worth& worth) {
     constexpr double kLeastThrough = 8, kLeastGain = 1.01;
     std::ranges::stable_sort(groups, std::greater(), &Opening::through);
     std::vector<Opening> chosen;
     for (Opening& o : groups) {
         if (o.through < kLeastThrough || chosen.size() == most) break;
-        const auto passed =
-            std::ranges::count_if(room.some, [&](const Feeler& f) { return o.isPassedBy(f); });
-        o.tried = std::max(room.every * double(passed), o.through);
+        const auto count =
+            std::ranges::count_if(passed, [&](const glm::dvec2& p) { return o.holds(p); });
+        o.tried = std::max(every * double(count), o.through);
         if (worth.secondMoment() < kLeastGain * worth.with(o).secondMoment()) continue;
         worth = worth.with(o);
         chosen.push_back(o);
     }
     return chosen;
+}
+
+/// Where rays pass a plane.
+std::vector<glm::dvec2> placesWhere(std::span<const Feeler> feelers, const Plane& plane) {
+    std::vector<glm::dvec2> places;
+    for (const Feeler& f : feelers)
+        if (const std::optional<glm::dvec2> p = plane.passedBy(f)) places.push_back(*p);
+    return places;
 }
 
 /// The openings in one of the planes that gain most.
@@ -266,15 +278,14 @@ std::vector<Opening> bestOpenings(const Room& room, size_t most, Worth& worth) {
     std::vector<Worth> with(room.planes.size(), worth);
     tbb::parallel_for(size_t(0), room.planes.size(), [&](size_t i) {
         const Plane& plane = room.planes[i];
-        std::vector<glm::dvec2> points;
-        for (const Feeler& f : room.free) {
-            const std::optional<glm::dvec2> p = plane.passedBy(f);
-            if (p && *p == glm::clamp(*p, plane.lo, plane.hi)) points.push_back(*p);
-        }
+        std::vector<glm::dvec2> points = placesWhere(room.free, plane);
+        std::erase_if(points,
+                      [&](const glm::dvec2& p) { return p != glm::clamp(p, plane.lo, plane.hi); });
+        const std::vector<glm::dvec2> passed = placesWhere(room.some, plane);
         for (const int reach : {1, 2, 4, 8}) {
             Worth of = worth;
             std::vector<Opening> openings =
-                worthwhile(groupsOf(plane, points, reach), room, most, of);
+                worthwhile(groupsOf(plane, points, reach), passed, room.every, most, of);
             if (of.secondMoment() >= with[i].secondMoment()) continue;
             with[i] = of;
             best[i] = std::move(openings);

@@ -24,9 +24,9 @@ using vulkan::BufferUse;
 
 namespace {
 
-template <class T>
-uint64_t sizeOf(const std::vector<T>& v) {
-    return v.size() * sizeof(T);
+template <class Array>
+uint64_t sizeOf(const Array& a) {
+    return a.size() * sizeof(typename Array::value_type);
 }
 
 } // namespace
@@ -147,9 +147,17 @@ void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
 
 namespace {
 
-template <class T>
-std::span<const std::byte> bytesOf(const std::vector<T>& v) {
-    return std::as_bytes(std::span(v));
+template <class Array>
+std::span<const std::byte> bytesOf(const Array& a) {
+    return std::as_bytes(std::span(a));
+}
+
+/// What may be large, in pages that a device can read where they lie; null: what has to be copied.
+const RowPages* pagesOf(const GpuScene& scene, uint32_t binding) {
+    if (binding == BINDING_DETAIL) return &scene.details.rows;
+    if (binding == BINDING_ENVIRONMENT && scene.lights.environment)
+        return scene.lights.environment->texels.get();
+    return nullptr;
 }
 
 constexpr size_t kBuffers = 7;
@@ -167,8 +175,12 @@ std::array<std::span<const std::byte>, kBuffers> contentsOf(const GpuScene& scen
     return contents;
 }
 
-bool areSame(std::span<const std::byte> a, std::span<const std::byte> b) {
-    return a.data() == b.data() ? a.size() == b.size() : std::ranges::equal(a, b);
+/// Whether a buffer with the contents `a` serves for `b`. One that reads the array itself does not
+/// outlive it.
+bool serves(const vulkan::Buffer& buffer, std::span<const std::byte> a,
+            std::span<const std::byte> b) {
+    if (a.data() == b.data()) return a.size() == b.size();
+    return !buffer.readsHost() && std::ranges::equal(a, b);
 }
 
 } // namespace
@@ -187,8 +199,12 @@ DeviceScene::DeviceScene(const vulkan::Device& device, const GpuScene& scene,
             continue;
         }
         filled.erase(binding); // before the memory of the next is asked for
-        buffers_.emplace_back(device, plan.name, plan.bytes, plan.use);
-        buffers_.back().upload(queue, contents[binding]);
+        if (const RowPages* pages = pagesOf(scene, binding)) {
+            buffers_.emplace_back(device, plan.name, *pages, plan.use);
+        } else {
+            buffers_.emplace_back(device, plan.name, plan.bytes, plan.use);
+            buffers_.back().upload(queue, contents[binding]);
+        }
     }
 }
 
@@ -196,7 +212,7 @@ SceneBuffers DeviceScene::releaseWhatIsAlsoIn(const GpuScene& next) {
     SceneBuffers filled;
     const auto contents = contentsOf(scene_), others = contentsOf(next);
     for (uint32_t binding = 0; binding < kBuffers; ++binding)
-        if (areSame(contents[binding], others[binding]))
+        if (serves(buffers_[binding], contents[binding], others[binding]))
             filled.emplace(binding, std::move(buffers_[binding]));
     buffers_.clear();
     return filled;
@@ -214,10 +230,6 @@ SceneBuffers DeviceScene::releaseAllBut(std::span<const uint32_t> changed) {
 // --- The film on the device ----------------------------------------------------------------------
 
 namespace {
-
-std::span<const std::byte> bytesOf(const std::vector<gpu::PixelState>& states) {
-    return std::as_bytes(std::span(states));
-}
 
 PixelSums sumsOf(const gpu::PixelState& s) {
     return {.count = s.count,

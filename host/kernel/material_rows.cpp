@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 namespace stromboli {
 
@@ -179,13 +181,18 @@ uint32_t burleyBits(const Material& m) {
     return passes ? bits | LOBE_GLOSSY_TRANSMISSION : bits;
 }
 
-/// Puts the tables of the interfaces of plastic behind all materials.
+/// Puts the tables of the interfaces of plastic behind all materials, one for all that are alike.
 void appendTables(MaterialRows& packed, std::span<const Material> materials) {
+    std::map<std::tuple<float, float, FacetDistribution, FacetMasking>, uint32_t> rowOf;
     for (size_t i = 0; i < materials.size(); ++i) {
         const Material& m = materials[i];
         if (m.kind != MaterialKind::Plastic || m.isSmooth()) continue;
+        const auto [known, isNew] =
+            rowOf.try_emplace({m.ior, m.facetAlpha().x, m.facets.distribution, m.facets.masking},
+                              uint32_t(packed.rows.size()));
         static_assert(offsetof(gpu::StatedParameters, table) == 16 * gpu::STATED_TABLE_ROW - 4);
-        packed.rows[packed.firstRow[i] + gpu::STATED_TABLE_ROW][3] = uint32_t(packed.rows.size());
+        packed.rows[packed.firstRow[i] + gpu::STATED_TABLE_ROW][3] = known->second;
+        if (!isNew) continue;
         for (const glm::vec4& piece : transmittanceTable(m.ior, m.facetAlpha().x, m.facets))
             appendRows(packed.rows, piece);
     }

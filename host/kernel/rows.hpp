@@ -1,9 +1,13 @@
 #pragma once
 
+#include "host/core/pages.hpp"
+
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -11,6 +15,9 @@ namespace stromboli {
 
 /// 16 bytes: the unit in which the kernel reads the scene (shaders/include/fetch.glsl).
 using Row = std::array<uint32_t, 4>;
+
+/// Rows that a device may read where they lie.
+using RowPages = PageVector<Row>;
 
 /// Appends the rows of a structure of shaders/shared.
 template <class T>
@@ -21,12 +28,14 @@ void appendRows(std::vector<Row>& rows, const T& value) {
         rows.push_back(row);
 }
 
-/// The structure that begins at a row.
+/// The structure that begins at a row. Throws std::out_of_range if it does not end among the rows.
 template <class T>
-T structureAt(const std::vector<Row>& rows, std::size_t row) {
+T structureAt(std::span<const Row> rows, std::size_t row) {
     std::array<Row, sizeof(T) / sizeof(Row)> words;
+    if (row > rows.size() || words.size() > rows.size() - row)
+        throw std::out_of_range("rows of a structure");
     for (std::size_t i = 0; i < words.size(); ++i)
-        words[i] = rows.at(row + i);
+        words[i] = rows[row + i];
     return std::bit_cast<T>(words);
 }
 

@@ -185,7 +185,7 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     std::vector<double> weights(tiles.count()), sines;
     for (uint32_t y = 0; y < height; ++y)
         sines.push_back(std::sin(glm::pi<double>() * (y + 0.5) / height));
-    const auto rows = std::make_shared<std::vector<Row>>(gpu::ENVIRONMENT_COLUMN_ROWS + count);
+    const auto rows = std::make_shared<RowPages>(gpu::ENVIRONMENT_COLUMN_ROWS + count);
     const std::span<Row> texels = std::span(*rows).subspan(gpu::ENVIRONMENT_COLUMN_ROWS);
     tbb::parallel_for(0u, tiles.count(), [&](uint32_t tile) {
         weights[tile] = packTile(environment, tiles, tile, sines, texels);

@@ -31,7 +31,7 @@ std::vector<AliasColumn> buildAliasTable(std::span<const double> weights);
 struct EnvironmentTable {
     /// TileColumns rows, then EnvironmentTexel rows; null: the picture is black. Those of an
     /// environment that is turned are the same.
-    std::shared_ptr<const std::vector<Row>> texels;
+    std::shared_ptr<const RowPages> texels;
     std::vector<double> tileProbability; ///< of a light sample to go to each tile, by weight
     gpu::EnvironmentLight light{};
     double luminance = 0; ///< integral over all directions, of the radiance times the strength

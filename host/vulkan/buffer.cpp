@@ -1,38 +1,22 @@
 #include "host/vulkan/buffer.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/pages.hpp"
 #include "shaders/shared/interface.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <optional>
-#include <sys/mman.h>
 #include <utility>
 
 namespace stromboli::vulkan {
 
-// --- Huge pages ----------------------------------------------------------------------------------
+// --- Memory of a device --------------------------------------------------------------------------
 
 namespace {
-
-/// The size of huge pages on x86-64, and on AArch64 with base pages of 4 KiB. Elsewhere the system
-/// does nothing or more.
-constexpr uintptr_t kHugePage = uintptr_t(2) << 20;
-
-/// Asks the system for pages of 2 MiB behind memory that nothing has been written to yet. A tree of
-/// millions of triangles is read in no order: with pages of 4 KiB nearly every record of it is a
-/// miss in the processor's table of pages as well. Only a request: nothing changes where the system
-/// has no such pages.
-void preferHugePages(std::span<std::byte> memory) {
-    const auto begin = reinterpret_cast<uintptr_t>(memory.data());
-    const uintptr_t first = (begin + kHugePage - 1) / kHugePage * kHugePage;
-    const uintptr_t last = (begin + memory.size()) / kHugePage * kHugePage;
-    if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-}
-
-// --- Memory of a device --------------------------------------------------------------------------
 
 VkMemoryPropertyFlags flagsOf(MemoryPlace place) {
     return place == MemoryPlace::Device
@@ -83,6 +67,42 @@ DeviceMemory::DeviceMemory(const Device& device, VkBuffer buffer, MemoryPlace pl
     device_ = &device;
     bytes_ = needs.size;
     device.countAllocation(int64_t(bytes_));
+}
+
+std::optional<DeviceMemory> DeviceMemory::ofHost(const Device& device, VkBuffer buffer,
+                                                 std::span<const std::byte> pages,
+                                                 const std::string& name) {
+    VkMemoryRequirements needs;
+    device.vk().vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    // Vulkan has no pointer to what is only read.
+    void* const pointer = const_cast<std::byte*>(pages.data());
+    constexpr auto kKind = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
+    VkMemoryHostPointerPropertiesEXT host = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
+    const VkResult known =
+        device.vk().vkGetMemoryHostPointerPropertiesEXT(device.handle(), kKind, pointer, &host);
+    const uint32_t types = needs.memoryTypeBits & host.memoryTypeBits;
+    const uint64_t bytes = wholePages(pages.size());
+    if (known != VK_SUCCESS || types == 0 || needs.size > bytes) return std::nullopt;
+    const VkImportMemoryHostPointerInfoEXT pointerInfo = {
+        .sType = VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT,
+        .handleType = kKind,
+        .pHostPointer = pointer};
+    const VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                       .pNext = &pointerInfo,
+                                       .allocationSize = bytes,
+                                       .memoryTypeIndex = uint32_t(std::countr_zero(types))};
+    VkDeviceMemory handle = VK_NULL_HANDLE;
+    if (device.vk().vkAllocateMemory(device.handle(), &info, nullptr, &handle) != VK_SUCCESS)
+        return std::nullopt;
+    DeviceMemory memory;
+    memory.memory_ = {device.handle(), handle, device.vk().vkFreeMemory};
+    check(device.vk().vkBindBufferMemory(device.handle(), buffer, handle, 0),
+          fmt::format("bind the {}", name));
+    memory.device_ = &device;
+    memory.bytes_ = needs.size;
+    device.countAllocation(int64_t(memory.bytes_));
+    return memory;
 }
 
 DeviceMemory::~DeviceMemory() {
@@ -210,9 +230,14 @@ VkBufferUsageFlags usageOf(BufferUse use) {
 }
 
 Handle<VkBuffer> createBuffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage,
-                              const std::string& name) {
-    const VkBufferCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
+                              const std::string& name, bool readsHost = false) {
+    const VkExternalMemoryBufferCreateInfo external = {
+        .sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO,
+        .handleTypes = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT};
+    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                     .pNext = readsHost ? &external : nullptr,
+                                     .size = bytes,
+                                     .usage = usage};
     VkBuffer buffer = VK_NULL_HANDLE;
     check(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &buffer),
           fmt::format("create the {}", name));
@@ -275,6 +300,24 @@ Buffer::Buffer(const Device& device, std::string name, uint64_t bytes, BufferUse
     memory_ = DeviceMemory(device, buffer_.get(), shared ? MemoryPlace::Host : MemoryPlace::Device,
                            name_);
     if (use == BufferUse::Texel) view_ = createView(device, buffer_.get(), name_);
+}
+
+Buffer::Buffer(const Device& device, std::string name, std::span<const std::byte> pages,
+               BufferUse use)
+    : device_(&device), name_(std::move(name)), bytes_(pages.size()), use_(use) {
+    if (device.description().readsHostPages && bytes_ >= kPageBytes) {
+        requireFits(device.description(), {name_, bytes_, use});
+        buffer_ = createBuffer(device, bytes_, usageOf(use), name_, true);
+        if (auto memory = DeviceMemory::ofHost(device, buffer_.get(), pages, name_)) {
+            memory_ = std::move(*memory);
+            readsHost_ = true;
+            if (use == BufferUse::Texel) view_ = createView(device, buffer_.get(), name_);
+            return;
+        }
+    }
+    *this = Buffer(device, name_, bytes_, use);
+    Queue queue(device);
+    upload(queue, pages);
 }
 
 void Buffer::upload(Queue& queue, std::span<const std::byte> data, uint64_t offset) {

@@ -1,13 +1,16 @@
 #pragma once
 
+#include "host/core/pages.hpp"
 #include "host/vulkan/device.hpp"
 #include "host/vulkan/instance.hpp"
 #include "host/vulkan/queue.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace stromboli::vulkan {
 
@@ -25,11 +28,15 @@ class DeviceMemory {
     DeviceMemory() = default;
     /// `name` of the buffer is for error messages. Throws DeviceError.
     DeviceMemory(const Device& device, VkBuffer buffer, MemoryPlace place, const std::string& name);
+    /// Pages of the host, which must outlive the object. Null: the driver does not take them.
+    static std::optional<DeviceMemory> ofHost(const Device& device, VkBuffer buffer,
+                                              std::span<const std::byte> wholePages,
+                                              const std::string& name);
     ~DeviceMemory();
     DeviceMemory(DeviceMemory&& other) noexcept { *this = std::move(other); }
     DeviceMemory& operator=(DeviceMemory&& other) noexcept;
 
-    /// Null unless in MemoryPlace::Host.
+    /// Null unless in MemoryPlace::Host; null for pages of the host's own.
     std::byte* mapped() const { return mapped_; }
     /// What the driver asks for a buffer: its size rounded up to the driver's alignment.
     uint64_t bytes() const { return bytes_; }
@@ -88,6 +95,12 @@ class Buffer {
     /// `name` is for error messages. An empty buffer gets 16 bytes: Vulkan has none of size 0.
     /// Throws DeviceError as requireFits does, and if the driver has no memory left.
     Buffer(const Device& device, std::string name, uint64_t bytes, BufferUse use);
+    /// A buffer with the contents of a PageVector. Where the device can, it reads them where they
+    /// lie (readsHost()): then they must outlive the buffer, and neither they nor the buffer
+    /// change.
+    template <class T>
+    Buffer(const Device& device, std::string name, const PageVector<T>& contents, BufferUse use)
+        : Buffer(device, std::move(name), std::as_bytes(std::span(contents)), use) {}
 
     VkBuffer handle() const { return buffer_.get(); }
     VkBufferView view() const { return view_.get(); } ///< Texel only
@@ -101,12 +114,18 @@ class Buffer {
     /// The buffer's bytes where the device's memory is the host's; else null. To be read between
     /// two dispatches.
     const std::byte* hostView() const { return memory_.mapped(); }
+    /// Whether its memory is that of an array of the host.
+    bool readsHost() const { return readsHost_; }
 
   private:
+    Buffer(const Device& device, std::string name, std::span<const std::byte> wholePages,
+           BufferUse use);
+
     const Device* device_;
     std::string name_;
     uint64_t bytes_;
     BufferUse use_;
+    bool readsHost_ = false;
     DeviceMemory memory_; ///< declared first: freed last
     Handle<VkBuffer> buffer_;
     Handle<VkBufferView> view_;

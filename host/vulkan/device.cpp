@@ -1,6 +1,7 @@
 #include "host/vulkan/device.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/pages.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +27,27 @@ void describeQueues(DeviceDescription& d) {
             d.queueFamily = int(i);
             d.timestampBits = families[i].timestampValidBits;
         }
+}
+
+bool hasExtension(VkPhysicalDevice handle, std::string_view name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, extensions.data());
+    return std::ranges::any_of(
+        extensions, [&](const VkExtensionProperties& e) { return name == e.extensionName; });
+}
+
+/// Whether the device reads memory of the host in units of a page (VK_EXT_external_memory_host).
+bool importsPages(VkPhysicalDevice handle) {
+    if (!hasExtension(handle, VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME)) return false;
+    VkPhysicalDeviceExternalMemoryHostPropertiesEXT host = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_MEMORY_HOST_PROPERTIES_EXT};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &host};
+    vkGetPhysicalDeviceProperties2(handle, &properties);
+    return host.minImportedHostPointerAlignment > 0 &&
+           kPageBytes % host.minImportedHostPointerAlignment == 0;
 }
 
 DeviceDescription describe(VkPhysicalDevice handle) {
@@ -61,6 +83,8 @@ DeviceDescription describe(VkPhysicalDevice handle) {
             d.memory = std::max<uint64_t>(d.memory, memory.memoryHeaps[i].size);
     describeQueues(d);
     d.floatControls = floatControlsOf(handle);
+    // A GPU would read through the bus what it reads often.
+    d.readsHostPages = d.isCpu() && importsPages(handle);
     constexpr VkSubgroupFeatureFlags kNeeded =
         VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
     if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
@@ -73,15 +97,6 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         d.missing =
             "a right way to run more than 16 lanes; set LP_NATIVE_VECTOR_WIDTH to 512 at most";
     return d;
-}
-
-bool hasExtension(VkPhysicalDevice handle, std::string_view name) {
-    uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, extensions.data());
-    return std::ranges::any_of(
-        extensions, [&](const VkExtensionProperties& e) { return name == e.extensionName; });
 }
 
 } // namespace
@@ -125,6 +140,8 @@ Device::Device(const Instance&, const DeviceDescription& description,
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
     std::vector<const char*> extensions;
+    if (description.readsHostPages)
+        extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
     if (description.floatControls.any())
         extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics = {

@@ -22,6 +22,7 @@ struct DeviceDescription {
     uint32_t subgroupSize = 0;
     uint64_t memory = 0; ///< largest device-local heap, bytes; 0: a driver without hardware
     uint64_t largestAllocation = 0; ///< maxMemoryAllocationSize, bytes
+    bool readsHostPages = false;    ///< shaders of a CPU can read pages of the host where they lie
     int queueFamily = -1;           ///< with compute; -1: none
     uint32_t timestampBits = 0;
     FloatControls floatControls; ///< that kernels ask for

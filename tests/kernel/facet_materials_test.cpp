@@ -2,6 +2,7 @@
 // they are, and the numbers that plastic is made of.
 #include "host/kernel/facet_terms.hpp"
 #include "host/kernel/material_rows.hpp"
+#include "shaders/shared/parameters.h"
 
 #include <gtest/gtest.h>
 
@@ -108,6 +109,22 @@ TEST(InterfaceTable, InternalReflectanceIsTheMeanOfFresnels) {
         }
         EXPECT_NEAR(internalReflectance(ior), sum, 1e-6) << ior;
     }
+}
+
+/// Tables take a millisecond each, and rooms have dozens of varnished things.
+TEST(InterfaceTable, IsSharedByMaterialsThatAreAlike) {
+    constexpr MaterialKind kPlastic = MaterialKind::Plastic;
+    const std::vector<Material> alike = {ofKind(kPlastic, 0.1f, 0.1f),
+                                         ofKind(kPlastic, 0.1f, 0.1f)},
+                                others = {ofKind(kPlastic, 0.1f, 0.1f),
+                                          ofKind(kPlastic, 0.3f, 0.3f)};
+    const auto tableOf = [](const MaterialRows& rows, size_t material) {
+        return rows.rows[rows.firstRow[material] + gpu::STATED_TABLE_ROW][3];
+    };
+    const MaterialRows one = packMaterials(alike), two = packMaterials(others);
+    EXPECT_EQ(tableOf(one, 0), tableOf(one, 1));
+    EXPECT_EQ(one.rows.size(), tableOf(one, 0) + gpu::TRANSMITTANCE_PIECES);
+    EXPECT_EQ(tableOf(two, 1), tableOf(two, 0) + gpu::TRANSMITTANCE_PIECES);
 }
 
 /// Facets that are nearly a plane let through what a plane does, but along it, where their slopes

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace stromboli {
@@ -15,11 +17,12 @@ namespace {
 using namespace scenes;
 using namespace test;
 
-GpuScene triangleAt(float x, float albedo) {
+/// sky: packed before; null: it is packed here.
+GpuScene triangleAt(float x, float albedo, std::shared_ptr<const EnvironmentTable> sky = {}) {
     SceneMaker b;
     b.quad({x, 0, 0}, {1, 0, 0}, {0, 1, 0}, b.add(diffuse(albedo)));
     b.scene.environment = Environment{"sky", 2, 1, {glm::vec3(1), glm::vec3(2)}};
-    return packScene(b.scene, buildWideBvh(b.scene));
+    return packScene(b.scene, buildWideBvh(b.scene), {}, std::move(sky));
 }
 
 std::vector<uint32_t> bindingsOf(const SceneBuffers& buffers) {
@@ -33,7 +36,8 @@ class DeviceScenes : public DeviceTest {};
 
 TEST_F(DeviceScenes, UploadWhatDiffersAlone) {
     const DeviceTuning tuning;
-    const GpuScene first = triangleAt(0, 0.5f), moved = triangleAt(3, 0.5f);
+    const GpuScene first = triangleAt(0, 0.5f);
+    const GpuScene moved = triangleAt(3, 0.5f, first.lights.environment);
     DeviceScene before(testDevice(), first, tuning);
     const VkBuffer sky = before.buffers()[BINDING_ENVIRONMENT].handle();
     SceneBuffers filled = before.releaseWhatIsAlsoIn(moved);
@@ -43,6 +47,19 @@ TEST_F(DeviceScenes, UploadWhatDiffersAlone) {
     const DeviceScene after(testDevice(), moved, tuning, std::move(filled));
     ASSERT_EQ(after.buffers().size(), 7u);
     EXPECT_EQ(after.buffers()[BINDING_ENVIRONMENT].handle(), sky);
+}
+
+/// A device that reads the first scene's array would read freed memory when that scene is gone.
+TEST_F(DeviceScenes, DoNotReadArraysOfTheSceneBefore) {
+    if (!testDevice().description().readsHostPages) GTEST_SKIP() << "the device has copies";
+    const GpuScene first = triangleAt(0, 0.5f), other = triangleAt(0, 0.5f);
+    ASSERT_EQ(*first.lights.environment->texels, *other.lights.environment->texels);
+    DeviceScene before(testDevice(), first, {});
+    ASSERT_TRUE(before.buffers()[BINDING_ENVIRONMENT].readsHost());
+    SceneBuffers filled = before.releaseWhatIsAlsoIn(other);
+    EXPECT_THAT(bindingsOf(filled),
+                testing::ElementsAre(BINDING_RECORDS, BINDING_PRIMITIVES, BINDING_MATERIALS,
+                                     BINDING_LIGHTS, BINDING_LIGHT_TABLE, BINDING_DETAIL));
 }
 
 TEST_F(DeviceScenes, WithOtherMaterialsUploadThem) {

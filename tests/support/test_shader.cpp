@@ -83,7 +83,7 @@ void TestShader::setScene(const GpuScene& scene) {
     set(BINDING_LIGHTS, scene.lights.lights);
     set(BINDING_LIGHT_TABLE, scene.lights.table);
     setBytes(BINDING_ENVIRONMENT, std::as_bytes(scene.lights.environmentRows()));
-    set(BINDING_DETAIL, scene.details.rows);
+    setBytes(BINDING_DETAIL, std::as_bytes(std::span(scene.details.rows)));
     gpu::Frame frame{};
     frame.lightCount = scene.lights.count;
     frame.areaLights = scene.lights.areaCount;

@@ -3,8 +3,10 @@
 #include "host/vulkan/device.hpp"
 #include "tests/support/device_fixture.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -117,6 +119,44 @@ TEST_F(DeviceMemory, LargeCopiesArriveWholeInMemoryOfTheDevicesOwn) {
         EXPECT_EQ(device.allocatedBytes(), 0u);
     }
     EXPECT_EQ(instance.validationMessages(), 0u);
+}
+
+/// What the device itself makes of a buffer with these contents.
+std::vector<uint32_t> readBack(const vulkan::Device& device, const Buffer& buffer) {
+    vulkan::Queue queue(device);
+    std::vector<uint32_t> words(buffer.bytes() / 4);
+    buffer.download(queue, std::as_writable_bytes(std::span(words)));
+    return words;
+}
+
+TEST_F(DeviceMemory, ACpuReadsPagesOfTheHostWhereTheyLie) {
+    for (const size_t count : {3u, 1024u, 1025u, 300'001u})
+        for (const BufferUse use : {BufferUse::Storage, BufferUse::Texel}) {
+            if (use == BufferUse::Texel && count % 4 != 0) continue; // rows of four
+            PageVector<uint32_t> sent(count);
+            for (size_t i = 0; i < count; ++i)
+                sent[i] = uint32_t(i * 2654435761u);
+            const uint64_t before = testDevice().bytesUploaded();
+            const Buffer buffer(testDevice(), "buffer", sent, use);
+            const bool reads = testDevice().description().readsHostPages && count >= 1024;
+            EXPECT_EQ(buffer.readsHost(), reads) << count;
+            EXPECT_EQ(testDevice().bytesUploaded() - before, reads ? 0 : 4 * count) << count;
+            const std::vector<uint32_t> received = readBack(testDevice(), buffer);
+            EXPECT_TRUE(std::ranges::equal(std::span(received).first(count), sent)) << count;
+        }
+}
+
+TEST_F(DeviceMemory, WhatCannotReadTheHostGetsACopy) {
+    const vulkan::Instance instance(true);
+    std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
+    vulkan::DeviceDescription& d = devices[vulkan::chooseDevice(devices, "").index];
+    d.readsHostPages = false;
+    const vulkan::Device device(instance, d);
+    PageVector<uint32_t> sent(5000, 7u);
+    const Buffer buffer(device, "buffer", sent, BufferUse::Storage);
+    sent.assign(5000, 8u);
+    EXPECT_FALSE(buffer.readsHost());
+    EXPECT_THAT(readBack(device, buffer), testing::Each(7u));
 }
 
 TEST_F(DeviceMemory, LimitsAreTheDevices) {

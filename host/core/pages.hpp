@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <span>
+#include <vector>
+
+namespace stromboli {
+
+/// Bytes of the system's smallest pages on the machines that the program is made for. A larger page
+/// costs nothing but that devices do not read arrays where they lie (vulkan::Buffer).
+constexpr std::size_t kPageBytes = 4096;
+
+constexpr std::size_t wholePages(std::size_t bytes) {
+    return (bytes + kPageBytes - 1) / kPageBytes * kPageBytes;
+}
+
+/// Asks the system for pages of 2 MiB behind memory that nothing has been written to yet. A tree of
+/// millions of triangles is read in no order: with pages of 4 KiB nearly every record of it is a
+/// miss in the processor's table of pages as well. Only a request: nothing changes where the system
+/// has no such pages.
+void preferHugePages(std::span<std::byte> memory);
+
+/// Memory in whole pages that belong to one array alone, so that a device of which the memory is
+/// the host's can read the array where it lies (vulkan::Buffer).
+template <class T>
+struct PageAllocator {
+    using value_type = T;
+
+    PageAllocator() = default;
+    template <class U>
+    PageAllocator(const PageAllocator<U>&) {}
+
+    T* allocate(std::size_t n) {
+        const std::size_t bytes = wholePages(n * sizeof(T));
+        void* const memory = ::operator new(bytes, std::align_val_t(kPageBytes));
+        preferHugePages({static_cast<std::byte*>(memory), bytes});
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t) {
+        ::operator delete(memory, std::align_val_t(kPageBytes));
+    }
+    template <class U>
+    bool operator==(const PageAllocator<U>&) const {
+        return true;
+    }
+};
+
+template <class T>
+using PageVector = std::vector<T, PageAllocator<T>>;
+
+} // namespace stromboli
