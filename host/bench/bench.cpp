@@ -126,7 +126,8 @@ class Benchmark {
     /// All that needs a device's copy of the scene.
     void trace(const Arena& arena, SceneReport& report) {
         const Scene& scene = arena.scene.scene;
-        const GpuScene gpu = buildScene(scene, arena.settings.estimator).gpu;
+        GpuScene gpu = buildScene(scene, arena.settings.estimator).gpu;
+        fitToPicture(gpu, scene, arena.camera, arena.settings.estimator);
         if (wants(Part::Rays)) traceRays(arena, gpu, report);
         if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu);
         if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants(gpu));

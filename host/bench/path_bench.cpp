@@ -195,8 +195,10 @@ bool hasTextures(const Scene& scene) {
 TextureReport benchTextures(const Arena& arena) {
     const Scene textured = underTheSky(arena.scene.scene), constant = withMeans(textured);
     std::vector<GpuScene> packed;
-    for (const Scene* scene : {&textured, &constant})
+    for (const Scene* scene : {&textured, &constant}) {
         packed.push_back(buildScene(*scene, arena.settings.estimator).gpu);
+        fitToPicture(packed.back(), *scene, arena.camera, arena.settings.estimator);
+    }
     std::vector<Painter> painters;
     for (size_t i = 0; i < packed.size(); ++i)
         painters.emplace_back(

@@ -138,7 +138,7 @@ void printKernels(const vulkan::Device& device, const KernelsOptions& options) {
     const auto [scene, picture] = preparePicture(options);
     const Estimator& estimator = picture.settings.estimator;
     BuiltScene built = buildScene(*scene.scene, estimator, toTerminal());
-    built.gpu.portals = portalsFor(*scene.scene, built.gpu, picture.camera, estimator);
+    fitToPicture(built.gpu, *scene.scene, picture.camera, estimator);
     nowDoing("compiling", StatusLine::OfOthers);
     const std::vector<KernelReport> reports =
         reportKernels(device, built.gpu, picture.camera, estimator);

@@ -197,7 +197,7 @@ int infoCommand(const InfoOptions& options) {
     const auto& [scene, picture] = prepared;
     const RenderSettings& settings = picture.settings;
     BuiltScene built = buildScene(*scene.scene, settings.estimator, toTerminal());
-    built.gpu.portals = portalsFor(*scene.scene, built.gpu, picture.camera, settings.estimator);
+    fitToPicture(built.gpu, *scene.scene, picture.camera, settings.estimator);
     if (!built.gpu.portals.all.empty() || liesOpen(built.gpu, picture.camera))
         prepared.picture.settings.estimator.guidesLight = false; // else it is tried
     nowDoing("printing", StatusLine::OfOthers);

@@ -170,7 +170,7 @@ study::PreparedRender prepareRender(const vulkan::Device& device, const std::str
         return render;
     }
     held->built = buildScene(loaded, settings.estimator, toTerminal());
-    held->built.gpu.portals = portalsFor(loaded, held->built.gpu, camera, settings.estimator);
+    fitToPicture(held->built.gpu, loaded, camera, settings.estimator);
     nowDoing("measuring", StatusLine::OfOthers);
     render.backend = std::make_unique<VulkanBackend>(device, held->built.gpu, camera, settings);
     return render;

@@ -3,6 +3,7 @@
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
+#include "host/kernel/feelers.hpp"
 #include "host/kernel/find_portals.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "scene/find_scene.hpp"
@@ -134,16 +135,20 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
                           lightSelection(estimator), kept ? kept->environment : nullptr,
                           gatheredRows, before);
     if (kept) kept->environment = built.gpu.lights.environment;
+    if (kept) built.gpu.recordsOfRay = kept->recordsOfRay;
+    if (before) built.gpu.recordsOfRay = before->recordsOfRay;
     built.seconds = watch.seconds();
     listener.doing(Stage::Preparing, "opening the device and compiling the kernel"); // comes next
     return built;
 }
 
-Portals portalsFor(const Scene& scene, const GpuScene& built, const Camera& camera,
-                   const Estimator& estimator) {
-    if (!aimsAtPortals(built, estimator)) return {};
-    return scene.portals.empty() ? findPortals(built.bvh, camera)
-                                 : statedPortals(scene.portals, camera);
+void fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
+                  const Estimator& estimator) {
+    if (built.recordsOfRay == 0) built.recordsOfRay = recordsOfRay(built.bvh, camera);
+    built.portals = {};
+    if (aimsAtPortals(built, estimator))
+        built.portals = scene.portals.empty() ? findPortals(built.bvh, camera)
+                                              : statedPortals(scene.portals, camera);
 }
 
 } // namespace stromboli

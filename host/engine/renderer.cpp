@@ -234,16 +234,17 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
         gatheredRows_ = 0;
         build(settings_.estimator);
     }
-    setPortals();
+    fitToPicture();
     name_ = devices_->name();
     samplersHaveIt_ = isThere;
     resident_ = residentMemory();
 }
 
-/// The portals are found anew for each camera: it may stand in another room than the one before.
-void Renderer::setPortals() {
+/// Portals are found anew for each camera: it may stand in another room than the one before.
+void Renderer::fitToPicture() {
     GpuScene& scene = built_->gpu;
-    scene.portals = portalsFor(*scene_, scene, camera_, settings_.estimator);
+    stromboli::fitToPicture(scene, *scene_, camera_, settings_.estimator);
+    kept_.recordsOfRay = scene.recordsOfRay;
     const bool areStated = !scene_->portals.empty();
     if (const size_t count = scene.portals.all.size(); count > 0)
         listener_.detail(fmt::format("light samples aim at {} {} that the sky is seen through{}",

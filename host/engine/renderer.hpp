@@ -137,7 +137,7 @@ class Renderer {
 
   private:
     void build(const Estimator& estimator);
-    void setPortals();
+    void fitToPicture();
     uint64_t bytesForFilms() const;
     uint64_t bytesPerPixel() const;
     uint64_t bytesOfScene() const;

@@ -29,7 +29,9 @@ std::optional<std::array<glm::vec3, 3>> cornersAt(const WideLayout& bvh, const T
 
 Feeler feel(const WideLayout& bvh, const TraversalRay& ray) {
     Feeler f{ray.origin, ray.direction};
-    const TraversalHit hit = closestHit(bvh, ray);
+    TraversalCounts counts;
+    const TraversalHit hit = closestHit(bvh, ray, &counts);
+    f.visited = counts.nodes + counts.leaves;
     if (!hit) return f;
     f.isFree = false;
     f.met = ray.origin + hit.t * (1 - 0x1p-12f) * ray.direction;
@@ -78,6 +80,21 @@ Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t ea
             rays.push_back(ray);
         }
     return feelAll(bvh, rays);
+}
+
+double recordsOfRay(const WideLayout& bvh, const Camera& camera) {
+    constexpr uint32_t kSide = 12;
+    constexpr size_t kEach = 2;
+    Random random(1);
+    const Feelers seen = lookAround(bvh, camera, kSide);
+    const Feelers once = feelFrom(bvh, seen, kEach, random);
+    const Feelers twice = feelFrom(bvh, once, 1, random);
+    uint64_t visited = 0;
+    for (const Feelers* feelers : {&seen, &once, &twice})
+        for (const Feeler& f : *feelers)
+            visited += f.visited;
+    const size_t rays = seen.size() + once.size() + twice.size();
+    return rays > 0 ? double(visited) / double(rays) : 0;
 }
 
 std::optional<double> shareOfFree(std::span<const Feeler> feelers) {

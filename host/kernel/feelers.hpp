@@ -19,6 +19,7 @@ struct Feeler {
     bool isFree = true;          ///< it has met nothing
     glm::vec3 met{0};            ///< else a point just before where it ended,
     glm::vec3 normal{0};         ///< and of what: unit, towards the origin; 0: a sphere
+    uint32_t visited = 0;        ///< records of the tree
 };
 using Feelers = std::vector<Feeler>;
 
@@ -27,6 +28,10 @@ Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side);
 
 /// `each` rays, one after the other, from where each of these has ended.
 Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t each, Random& random);
+
+/// Records that a ray of a path visits on the way, on average, from the camera and after one and
+/// two bounces; 0: the camera sees nothing.
+double recordsOfRay(const WideLayout& bvh, const Camera& camera);
 
 /// The share of those that meet nothing; empty: there are none.
 std::optional<double> shareOfFree(std::span<const Feeler> feelers);

@@ -25,6 +25,7 @@ struct GpuScene {
     DetailRows details; ///< attributes of corners, and texels
     LightTable lights;
     Portals portals;          ///< of the picture to come; packScene() leaves it empty
+    double recordsOfRay = 0;  ///< recordsOfRay() of its first picture; packScene() leaves it 0
     SceneClosures closures;   ///< of the materials that primitives have
     bool hasEmission = false; ///< a primitive emits
     bool hasBlends = false;   ///< a primitive's material is a mixture

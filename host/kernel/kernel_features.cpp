@@ -150,9 +150,18 @@ uint32_t texturesWanted(const GpuScene& scene, bool shades) {
 /// Maps give flat surfaces a shading normal too.
 constexpr uint32_t kNormalMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;
 
-uint32_t traversalSteps(const KernelFeatures& f, const DeviceTuning& tuning) {
+/// With fewer steps than a ray takes, the service is run for the few lanes that are done; with
+/// more, these wait. The longer the service, the more it pays to wait (docs/results.md, "Steps
+/// between two services"). The numbers are even, so that scenes share kernels.
+uint32_t traversalSteps(const KernelFeatures& f, const GpuScene& scene,
+                        const DeviceTuning& tuning) {
     if (f[SPEC_HAS_PLACEMENTS]) return tuning.placedTraversalSteps;
-    return servesForLong(f) ? tuning.richTraversalSteps : tuning.traversalSteps;
+    const bool isLong = servesForLong(f);
+    if (!tuning.stepsFitRays || !(scene.recordsOfRay > 0))
+        return isLong ? tuning.richTraversalSteps : tuning.traversalSteps;
+    constexpr double kLeast = 4, kMost = 16;
+    const double wanted = isLong ? 2 + 1.25 * scene.recordsOfRay : scene.recordsOfRay;
+    return uint32_t(std::clamp(2 * std::round(wanted / 2), kLeast, kMost));
 }
 
 /// The 32 bits of a constant.

@@ -37,6 +37,7 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     t.workgroupSize = subgroupSize;
     t.traversalSteps = 5;
     t.richTraversalSteps = 8;
+    t.stepsFitRays = true;
     // In nearly every step one of sixteen lanes comes to a placement or leaves one.
     t.placedTraversalSteps = 1;
     t.traversalLegs = 20;
@@ -75,6 +76,7 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, u
     t.traversalSteps = tuning.traversalSteps.value_or(t.traversalSteps);
     t.richTraversalSteps = tuning.traversalSteps.value_or(t.richTraversalSteps);
     t.placedTraversalSteps = tuning.traversalSteps.value_or(t.placedTraversalSteps);
+    t.stepsFitRays = t.stepsFitRays && !tuning.traversalSteps;
     t.traversalLegs = tuning.traversalLegs.value_or(t.traversalLegs);
     t.registerStack = tuning.registerStack.value_or(t.registerStack);
     t.stepsBranch = tuning.stepsBranch.value_or(t.stepsBranch);

@@ -48,6 +48,9 @@ struct DeviceTuning {
     uint32_t workgroupSize = 64;
     uint32_t traversalSteps = 8;
     uint32_t richTraversalSteps = 8; ///< of kernels whose service is long (textures, layers)
+    /// Between two services as many steps as a ray of the scene takes, where that is known, in
+    /// place of these numbers.
+    bool stepsFitRays = false;
     /// Where prototypes are placed, a ray is prepared anew for each leg between two service passes,
     /// and lanes that come to a placement or leave one wait for that.
     uint32_t placedTraversalSteps = 4, traversalLegs = 4;

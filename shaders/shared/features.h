@@ -149,7 +149,7 @@
       "counts of steps", flag, "counts of the lanes at work in each step") \
     F(46, uint, TRAVERSAL_LEGS, 1u, scene.hasPlacements ? tuning.traversalLegs : 1, own, \
       "legs between two services", count(""), "rays that are prepared anew between two service passes") \
-    F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
+    F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, scene, tuning), own, \
       "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg") \
     F(55, bool, STEPS_BRANCH, false, tuning.stepsBranch, own, \
       "steps that branch", flag, "branches around what a step of the traversal does with a node and with a leaf") \

@@ -3,6 +3,7 @@
 
 #include "host/bvh/wide_layout.hpp"
 #include "host/core/error.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "scene/model/placements.hpp"
 #include "tests/film/temporary_folder.hpp"
@@ -218,6 +219,28 @@ TEST(SceneChange, WhatIsKeptIsWhatWouldBePackedAnew) {
     EXPECT_EQ(kept.lights.table, anew.lights.table);
     EXPECT_GT(anew.details.rows.size(), anew.details.firstTexel) << "it has textures";
     EXPECT_NE(before.bvh.records, anew.bvh.records);
+}
+
+/// A camera that moves asks for no other kernel, whatever its rays visit.
+TEST(SceneChange, WhatRaysVisitIsMeasuredOnce) {
+    const auto scene = bundled("cornell_mesh");
+    GpuScene packed = packScene(*scene, buildWideBvh(*scene));
+    const Camera camera = makeCamera(*scene, CameraChoice::Automatic, 4, 4);
+    Camera behind = camera;
+    behind.position += 100.0 * camera.back;
+    behind.back = -camera.back;
+    fitToPicture(packed, *scene, behind, {});
+    EXPECT_EQ(packed.recordsOfRay, 0) << "the camera sees nothing";
+    fitToPicture(packed, *scene, camera, {});
+    const double records = packed.recordsOfRay;
+    EXPECT_GT(records, 3);
+    fitToPicture(packed, *scene, behind, {});
+    EXPECT_EQ(packed.recordsOfRay, records);
+    KeptParts kept;
+    kept.recordsOfRay = 7;
+    EXPECT_EQ(buildScene(*scene, {}, {}, &kept).gpu.recordsOfRay, 7);
+    EXPECT_EQ(buildScene(*scene, {}, {}, nullptr, kUsualGatheredRows, &packed).gpu.recordsOfRay,
+              records);
 }
 
 TEST(SceneChange, EnvironmentsThatCannotBeAreRefused) {

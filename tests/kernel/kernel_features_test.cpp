@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace stromboli {
 namespace {
 
@@ -120,6 +122,34 @@ TEST(KernelFeatures, LongServicesTakeMoreSteps) {
     EXPECT_EQ(passesOfCameraRays(steps(PixelFilter::Gaussian)), 13u);
     // Newton's ten steps and their end, for columns and rows.
     EXPECT_EQ(passesOfCameraRays(steps(PixelFilter::BlackmanHarris)), 13u + 22u);
+}
+
+/// Rays of large rooms visit more records, and lanes trace as many before they are served; numbers
+/// that are asked for, and those of scenes of which nothing is known, stay.
+TEST(KernelFeatures, StepsFitTheRaysOfTheScene) {
+    DeviceTuning tuning;
+    tuning.traversalSteps = 5;
+    tuning.richTraversalSteps = 8;
+    tuning.stepsFitRays = true;
+    const Scene scene = oneTriangle({});
+    GpuScene packed = packScene(scene, buildWideBvh(scene));
+    const auto steps = [&](double records, PixelFilter filter) {
+        packed.recordsOfRay = records;
+        Estimator settings;
+        settings.filter = filter;
+        return kernelFeatures(packed, Camera{}, settings, tuning)[SPEC_TRAVERSAL_STEPS];
+    };
+    for (const auto& [records, plain, rich] : {std::array{0.0, 5.0, 8.0},
+                                               {1.0, 4.0, 4.0},
+                                               {6.7, 6.0, 10.0},
+                                               {8.9, 8.0, 14.0},
+                                               {13.6, 14.0, 16.0},
+                                               {1e9, 16.0, 16.0}}) {
+        EXPECT_EQ(steps(records, PixelFilter::Box), plain) << records;
+        EXPECT_EQ(steps(records, PixelFilter::Gaussian), rich) << records;
+    }
+    tuning.stepsFitRays = false;
+    EXPECT_EQ(steps(9, PixelFilter::Box), 5u);
 }
 
 /// Maps make shading normals of flat triangles, too, which then have none of their corners.

@@ -1,5 +1,6 @@
 // How the kernel runs on a device: what is chosen, and that no choice changes the picture.
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/feelers.hpp"
 #include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
@@ -31,8 +32,6 @@ class KernelTuningTest : public DeviceTest {
     }
 
     RenderSettings settings_ = settings();
-
-  private:
     Scene loaded_ =
         loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/cornell_boxes.dae");
     GpuScene scene_ = packScene(loaded_, buildWideBvh(loaded_));
@@ -53,6 +52,21 @@ TEST_F(KernelTuningTest, TheDeviceDecidesWhatIsLeftOpen) {
     EXPECT_GE(t.itemsPerDispatch, t.lanes);
     EXPECT_FALSE(t.countSteps);
     EXPECT_FALSE(t.everythingOn);
+}
+
+/// What the host counts with some hundred rays is about what the kernel's rays visit.
+TEST_F(KernelTuningTest, RecordsOfARayAreKnownBeforehand) {
+    VulkanBackend counting = backend({.countSteps = true});
+    render(counting, settings_);
+    const double visited = double(counting.steps().busy) / double(counting.counters().rays);
+    EXPECT_NEAR(recordsOfRay(scene_.bvh, camera_), visited, 0.2 * visited);
+}
+
+/// Steps that are asked for are those of all kernels.
+TEST_F(KernelTuningTest, StepsFitRaysUnlessTheyAreGiven) {
+    const bool cpu = testDevice().description().isCpu();
+    EXPECT_EQ(resolve({}, testDevice()).stepsFitRays, cpu);
+    EXPECT_FALSE(resolve({.traversalSteps = 5}, testDevice()).stepsFitRays);
 }
 
 TEST_F(KernelTuningTest, WhatIsGivenIsTaken) {
