@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace stromboli {
 
@@ -40,6 +41,16 @@ std::string inWords(const PictureNoise& noise) {
     return {};
 }
 
+std::string worstPixelsInWords(const PictureNoise& noise, bool isDenoised) {
+    constexpr double kMost = 0.5;
+    if (!noise.known() || noise.ofWorst < kMost) return {};
+    return fmt::format("ten pixels have {} % of that (fireflies); without them the noise is about "
+                       "{} %{}",
+                       percent(noise.ofWorst),
+                       percent(noise.estimate * std::sqrt(1 - noise.ofWorst)),
+                       isDenoised ? "" : ": --denoise spreads them, --clamp-indirect limits them");
+}
+
 namespace {
 
 /// Where a denoiser works the limit is one of its picture's error; the noisy one may reach it
@@ -59,6 +70,9 @@ void logNoise(const RenderResult& r, const StopRule& stop) {
         logging::warn(fmt::format("{}; {} {} % was asked for, but {} ended the render", reached,
                                   atMost, percent(stop.noise),
                                   r.cancelled ? "the interruption" : "--time or -s"));
+    if (const std::string worst = worstPixelsInWords(r.noise, r.denoised.has_value());
+        !worst.empty())
+        logging::info(worst);
 }
 
 } // namespace
@@ -195,6 +209,7 @@ void writeStatistics(const std::string& file, const RenderReport& report, const 
         {"samplesRejected", r.samplesRejected},
         {"noise", r.noise.known() ? Json(r.noise.estimate) : Json()},
         {"noiseRange", r.noise.known() ? Json(std::array{r.noise.least, r.noise.most}) : Json()},
+        {"noiseOfTenWorstPixels", r.noise.known() ? Json(r.noise.ofWorst) : Json()},
     };
     if (r.denoised) {
         const denoise::Summary& d = *r.denoised;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace stromboli {
 
@@ -125,9 +126,32 @@ constexpr double kDarkest = 0.9;
 /// takes it to be like any of its neighbours: where a lamp reaches into a pixel by a little, few
 /// samples meet it, and one that does makes the largest error of the picture.
 struct Errors {
+    /// x of one pixel: `apart` and `together`.
+    struct Pixel {
+        double apart = 0, together = 0;
+        double product() const { return apart * together; }
+    };
     double apart = 0, apartSquared = 0, together = 0, likeAny = 0;
     double samples = 0;
     uint64_t pixels = 0;
+    std::vector<Pixel> worst; ///< kWorstPixels at most, the worst first
+
+    void keepIfAmongWorst(const Pixel& pixel) {
+        const auto place =
+            std::ranges::upper_bound(worst, pixel.product(), std::greater(), &Pixel::product);
+        if (place == worst.end() && worst.size() == kWorstPixels) return;
+        worst.insert(place, pixel);
+        if (worst.size() > kWorstPixels) worst.pop_back();
+    }
+
+    /// Of the square of the picture's noise, which is the geometric mean of both.
+    double shareOfWorst() const {
+        Pixel sum;
+        for (const Pixel& pixel : worst)
+            sum.apart += pixel.apart, sum.together += pixel.together;
+        const double all = apart * together;
+        return all > 0 ? std::sqrt(sum.product() / all) : 0;
+    }
 };
 
 class Picture {
@@ -166,6 +190,8 @@ class Picture {
             sum.apart += e.apart, sum.apartSquared += e.apartSquared, sum.together += e.together;
             sum.likeAny += e.likeAny;
             sum.samples += e.samples, sum.pixels += e.pixels;
+            for (const Errors::Pixel& pixel : e.worst)
+                sum.keepIfAmongWorst(pixel);
         }
         return sum;
     }
@@ -199,8 +225,10 @@ class Picture {
                 const glm::dvec3 radiance = believed({all_, tile, window}, own);
                 weights_[size_t(y) * film_.width + x] =
                     glm::vec3(1.0 / (radiance * radiance + floor * floor));
+                const double together = relative(own.value, radiance, floor);
                 sum.apart += apart, sum.apartSquared += apart * apart;
-                sum.together += relative(own.value, radiance, floor);
+                sum.together += together;
+                sum.keepIfAmongWorst({apart, together});
             }
         }
     }
@@ -290,6 +318,7 @@ PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredE
     noise.most = std::sqrt(std::max({apart, together, likeAny}) * pixels *
                            tooSmall(errors.samples / double(errors.pixels)) /
                            chiSquareQuantile(pixels, -kZ));
+    noise.ofWorst = errors.shareOfWorst();
     return noise;
 }
 
@@ -306,10 +335,11 @@ PictureNoise togetherOf(std::span<const PartNoise> parts) {
         sum.estimate += noise.estimate * noise.estimate * double(count);
         sum.least += noise.least * noise.least * double(count);
         sum.most += noise.most * noise.most * double(count);
+        sum.ofWorst += noise.ofWorst * noise.estimate * noise.estimate * double(count);
     }
     if (!sum.known()) return sum;
     return {Unknown::No, std::sqrt(sum.estimate / pixels), std::sqrt(sum.least / pixels),
-            std::sqrt(sum.most / pixels)};
+            std::sqrt(sum.most / pixels), sum.estimate > 0 ? sum.ofWorst / sum.estimate : 0};
 }
 
 namespace {

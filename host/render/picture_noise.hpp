@@ -55,6 +55,9 @@ class PixelWindows {
 /// `stromboli compare` computes it.
 constexpr double kRelativeFloor = 0.1;
 
+/// So few pixels of a picture that nobody would want its noise to rest on them.
+constexpr size_t kWorstPixels = 10;
+
 /// What a picture's own samples say of its noise, the square root of its relMSE: 0.02 is 2 %.
 struct PictureNoise {
     enum class Unknown {
@@ -68,6 +71,9 @@ struct PictureNoise {
     /// A range that holds the noise in 95 of 100 renders (docs/theory/noise.md, "How noisy a
     /// picture is"; docs/results.md has the test of it).
     double least = 0, most = 0;
+    /// The share of the squared noise that its kWorstPixels worst pixels have: of a picture in
+    /// parts, those of each part.
+    double ofWorst = 0;
 
     bool known() const { return unknown == Unknown::No; }
 };

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace stromboli {
 namespace {
@@ -117,6 +120,39 @@ TEST(PictureNoise, TheRangeIsNarrowWhereManyPixelsTell) {
     const Outcomes all = outcomesOf(even, s, 4);
     EXPECT_EQ(all.unknown, 0);
     EXPECT_LT(all.widest, 2.8); // 2.4 of the two allowances together, and chance
+}
+
+/// A film of radiance 1, whose errors are given by themselves.
+PictureNoise noiseOfErrors(const std::vector<double>& squared) {
+    Film film = renderDrawn([](uint32_t, Random&) { return 1.0; }, settingsOf(4), 1).film;
+    return pictureNoise(film, std::vector<glm::dvec3>(squared.begin(), squared.end()));
+}
+
+TEST(PictureNoise, SaysWhatItsTenWorstPixelsHave) {
+    constexpr size_t kPixels = size_t(kSide) * kSide;
+    std::vector<double> errors(kPixels, 0.01);
+    EXPECT_NEAR(noiseOfErrors(errors).ofWorst, 10.0 / kPixels, 1e-9);
+    for (size_t i = 0; i < 4; ++i)
+        errors[i * 500 + 7] = 6; // six of the ten are like all others
+    const double all = 4 * 6 + (kPixels - 4) * 0.01;
+    EXPECT_NEAR(noiseOfErrors(errors).ofWorst, (4 * 6 + 6 * 0.01) / all, 1e-9);
+    for (size_t i = 0; i < 12; ++i)
+        errors[i * 150 + 3] = 2 + double(i); // of twelve that stand out, the ten worst
+    double worst = 0;
+    std::vector<double> sorted = errors;
+    std::ranges::sort(sorted, std::greater());
+    for (size_t i = 0; i < 10; ++i)
+        worst += sorted[i];
+    EXPECT_NEAR(noiseOfErrors(errors).ofWorst,
+                worst / std::accumulate(errors.begin(), errors.end(), 0.0), 1e-9);
+}
+
+/// By squared noise: a part of twice the noise and a third of the pixels weighs four thirds.
+TEST(PictureNoise, WorstPixelsOfPartsAreWeighted) {
+    using Unknown = PictureNoise::Unknown;
+    const std::array parts = {PartNoise{{Unknown::No, 0.2, 0.1, 0.3, 0.6}, 100},
+                              PartNoise{{Unknown::No, 0.1, 0.1, 0.3, 0.1}, 300}};
+    EXPECT_NEAR(togetherOf(parts).ofWorst, (0.6 * 4 + 0.1 * 3) / 7, 1e-12);
 }
 
 TEST(PictureNoise, OneSampleAPixelTellsNothing) {
