@@ -98,8 +98,9 @@ uint64_t RenderDevices::hostBytesOfScene(const GpuScene& scene) const {
     for (const Seat& seat : seats_) {
         if (!seat.open.device->description().isCpu()) continue;
         bytes += kDriver;
+        const bool readsHost = seat.open.device->description().readsHostPages;
         for (const vulkan::BufferPlan& plan : planSceneBuffers(scene, {}))
-            bytes += plan.bytes;
+            if (!(readsHost && plan.isInPages)) bytes += plan.bytes;
     }
     return bytes;
 }

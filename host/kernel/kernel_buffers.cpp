@@ -42,9 +42,9 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
             {"material buffer", sizeOf(scene.materials), rows},
             {"light buffer", sizeOf(scene.lights.lights), rows},
             {"light table", sizeOf(scene.lights.table), rows},
-            {"environment", scene.lights.environmentRows().size_bytes(), rows},
+            {"environment", scene.lights.environmentRows().size_bytes(), rows, {}, true},
             {"texture buffer", sizeOf(scene.details.rows), rows,
-             "--max-texture N makes textures smaller"}};
+             "--max-texture N makes textures smaller", true}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {

@@ -61,7 +61,8 @@ struct BufferPlan {
     std::string name; ///< for messages
     uint64_t bytes = 0;
     BufferUse use = BufferUse::Storage;
-    std::string remedy; ///< what the user can do where it does not fit; may be empty
+    std::string remedy;     ///< what the user can do where it does not fit; may be empty
+    bool isInPages = false; ///< its contents are a PageVector
 };
 
 /// The most bytes of one buffer that a shader can reach through one binding of this kind, and the
