@@ -27,6 +27,12 @@ void setFalloff(LightBounds& bounds, const Light& light, double sceneRadius) {
     }
 }
 
+void setInfinite(LightBounds& bounds, const Light& light) {
+    bounds.group = gpu::LIGHT_GROUP_INFINITE;
+    bounds.cosSpread = 1;
+    bounds.power = luminance(light.color);
+}
+
 void setCone(LightBounds& bounds, const Light& light) {
     bounds.cosSpread = std::cos(0.5 * double(light.falloffAngle));
     bounds.sharp = true;
@@ -85,43 +91,28 @@ PackedLight packLight(const Light& l, double sceneRadius, uint32_t picture) {
     PackedLight packed;
     LightBounds& bounds = packed.bounds;
     bounds.axis = glm::normalize(glm::dvec3(l.direction));
-    switch (l.kind) {
-    case LightKind::Directional:
-        packed.kindAndFlags = gpu::LIGHT_DIRECTIONAL;
-        appendRows(packed.parameters, gpu::DirectionalLight{-l.direction, 0});
-        bounds.group = gpu::LIGHT_GROUP_INFINITE;
-        bounds.cosSpread = 1;
-        bounds.power = luminance(l.color);
+    using namespace gpu;
+#define PACK_LIGHT(kind_, name, flags, parameters_, bounds_)                                       \
+    case LightKind::kind_:                                                                         \
+        packed.kindAndFlags = LIGHT_##name | (flags);                                              \
+        appendRows(packed.parameters, parameters_);                                                \
+        bounds_;                                                                                   \
         break;
+    switch (l.kind) {
+        DELTA_LIGHTS(PACK_LIGHT)
     case LightKind::Ambient:
-        packed.kindAndFlags = gpu::LIGHT_AMBIENT;
-        bounds.group = gpu::LIGHT_GROUP_INFINITE;
+        packed.kindAndFlags = LIGHT_AMBIENT;
+        bounds.group = LIGHT_GROUP_INFINITE;
         bounds.axis = {0, -1, 0};
         bounds.cosSpread = l.upperHemisphereOnly ? 0 : -1;
         bounds.power = luminance(l.color) * glm::pi<double>();
         break;
-    case LightKind::Point:
-        packed.kindAndFlags = gpu::LIGHT_POINT;
-        appendRows(packed.parameters, pointLight(l));
-        setFalloff(bounds, l, sceneRadius);
-        break;
-    case LightKind::Spot:
-        packed.kindAndFlags = gpu::LIGHT_SPOT;
-        appendRows(packed.parameters, pointLight(l));
-        setFalloff(bounds, l, sceneRadius);
-        setCone(bounds, l);
-        break;
-    case LightKind::Projector:
-        packed.kindAndFlags = gpu::LIGHT_PROJECTOR | projectorFlags(l);
-        appendRows(packed.parameters, projectorLight(l, picture));
-        setFalloff(bounds, l, sceneRadius);
-        setCone(bounds, l);
-        break;
     case LightKind::Area:
-        packed.kindAndFlags = gpu::LIGHT_QUAD;
+        packed.kindAndFlags = LIGHT_QUAD;
         appendRows(packed.parameters, rectangle(l));
         break;
     }
+#undef PACK_LIGHT
     return packed;
 }
 

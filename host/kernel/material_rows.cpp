@@ -152,33 +152,15 @@ uint32_t facetBits(const Facets& facets) {
            (isSeparable ? gpu::FACETS_ARE_SEPARABLE : 0);
 }
 
-/// Samples of a mixture of closures count as glossy ones: they have the density of all.
-uint32_t principledBits(const Material& m) {
-    using namespace gpu;
-    const auto& p = m.principled;
-    uint32_t bits = RECIPE_PRINCIPLED | CLOSURE_BASE | CLOSURE_INTERFACE | LOBE_GLOSSY_REFLECTION;
-    if (p.clearcoat > 0) bits |= CLOSURE_COAT;
-    if (p.sheenColor != glm::vec3(0)) bits |= CLOSURE_SHEEN;
-    if (p.anisotropy > 0) bits |= FACETS_ARE_TURNED;
-    if (transmits(m)) bits |= LOBE_GLOSSY_TRANSMISSION | (p.isThin ? INTERFACE_IS_THIN : 0);
-    if (passesDiffusely(m)) bits |= LOBE_DIFFUSE_TRANSMISSION | LOBE_GLOSSY_TRANSMISSION;
-    if (refracts(m)) bits |= INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC;
-    if (p.isThin || (bits & LOBE_GLOSSY_TRANSMISSION) == 0) return bits;
-    return m.principled.absorption() != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
+bool absorbs(const Material& m) {
+    const bool hasVolume = !m.principled.isThin && (transmits(m) || passesDiffusely(m));
+    return hasVolume && m.principled.absorption() != glm::vec3(0);
 }
 
-uint32_t burleyBits(const Material& m) {
+/// Through Burley's model; a texture may make less of a metal of it.
+bool passesThrough(const Material& m) {
     const stromboli::BurleyParameters& p = m.burley;
-    // A texture may make less of a metal of it.
-    const bool passes = p.isThin ? p.transmits() : p.transmission > 0 && !isAllMetal(m, p.metallic);
-    using namespace gpu;
-    uint32_t bits = RECIPE_BURLEY | CLOSURE_BASE | CLOSURE_INTERFACE | INTERFACE_IS_DIELECTRIC |
-                    FACETS_ARE_SEPARABLE | LOBE_GLOSSY_REFLECTION;
-    if (p.clearcoat > 0 && !p.isThin) bits |= CLOSURE_COAT;
-    if (p.sheen > 0) bits |= CLOSURE_SHEEN;
-    if (p.isThin) bits |= INTERFACE_IS_THIN;
-    if (!p.isThin && passes) bits |= INTERFACE_REFRACTS;
-    return passes ? bits | LOBE_GLOSSY_TRANSMISSION : bits;
+    return p.isThin ? p.transmits() : p.transmission > 0 && !isAllMetal(m, p.metallic);
 }
 
 /// Puts the tables of the interfaces of plastic behind all materials, one for all that are alike.
@@ -242,37 +224,16 @@ bool isIridescent(const Material& m) {
 
 uint32_t closureBits(const Material& m) {
     using namespace gpu;
-    const uint32_t colored = m.baseColor() != nullptr ? HAS_BASE_COLOR : 0;
     const bool isSmooth = m.isSmooth();
     const uint32_t plane = isSmooth ? INTERFACE_IS_SMOOTH : facetBits(m.facets);
     const uint32_t reflects = isSmooth ? LOBE_DELTA_REFLECTION : LOBE_GLOSSY_REFLECTION;
     const uint32_t passes = isSmooth ? LOBE_DELTA_TRANSMISSION : LOBE_GLOSSY_TRANSMISSION;
-    switch (m.kind) {
-    case MaterialKind::Diffuse:
-        return CLOSURE_BASE | LOBE_DIFFUSE_REFLECTION | colored;
-    case MaterialKind::Mirror:
-        return CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_IDEAL | LOBE_DELTA_REFLECTION;
-    case MaterialKind::Refraction:
-        return CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_IDEAL |
-               INTERFACE_IS_DIELECTRIC | INTERFACE_REFRACTS | LOBE_DELTA_TRANSMISSION;
-    case MaterialKind::Conductor:
-        return CLOSURE_INTERFACE | INTERFACE_IS_CONDUCTOR | plane | reflects | colored;
-    case MaterialKind::Dielectric:
-        return CLOSURE_INTERFACE | INTERFACE_IS_DIELECTRIC | INTERFACE_REFRACTS | plane | reflects |
-               passes | colored;
-    case MaterialKind::ThinDielectric:
-        return CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_DIELECTRIC |
-               INTERFACE_IS_THIN | LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION | colored;
-    case MaterialKind::Plastic:
-        return CLOSURE_BASE | CLOSURE_INTERFACE | CLOSURE_LAYERS | INTERFACE_IS_DIELECTRIC | plane |
-               reflects | (isSmooth ? LOBE_DIFFUSE_REFLECTION : 0) |
-               (m.isNonlinear ? BASE_IS_NONLINEAR : 0) | colored;
-    case MaterialKind::Principled:
-        return principledBits(m) | colored;
-    case MaterialKind::Burley:
-        return burleyBits(m) | colored;
-    }
-    return 0;
+    uint32_t bits = m.baseColor() != nullptr ? HAS_BASE_COLOR : 0;
+#define ADD_BITS(kind_, when, bits_)                                                               \
+    if (m.kind == MaterialKind::kind_ && (when)) bits |= (bits_);
+    CLOSURES_OF_KINDS(ADD_BITS)
+#undef ADD_BITS
+    return bits;
 }
 
 void SceneClosures::add(uint32_t bits) {

@@ -36,7 +36,7 @@ uint32_t reliefBits(const Material& material);
 bool isDispersive(const Material& material);
 bool isIridescent(const Material& material);
 
-/// LOBE_ and closure bits of a material (shaders/shared/bsdf_types.h).
+/// LOBE_ and closure bits of a material (shaders/shared/parameters.h).
 uint32_t closureBits(const Material& material);
 
 /// Which of these bits the materials of a scene have.

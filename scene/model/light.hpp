@@ -51,10 +51,12 @@ struct Light {
     /// direction: it grows with the cube of the secant, so that a plane across is lit evenly.
     bool isFramed = false;
 
-    bool isDelta() const {
-        return kind == LightKind::Directional || kind == LightKind::Point ||
-               kind == LightKind::Spot || kind == LightKind::Projector;
+    /// Shines from a place, without a surface.
+    bool isLamp() const {
+        return kind == LightKind::Point || kind == LightKind::Spot || kind == LightKind::Projector;
     }
+    /// No ray meets it.
+    bool isDelta() const { return isLamp() || kind == LightKind::Directional; }
 };
 
 /// Members that came after the first checkpoints (material.hpp).

@@ -135,9 +135,7 @@ LightFoci lightFoci(const Scene& scene) {
         all.push_back(focus);
     };
     for (const Light& l : scene.lights) {
-        const bool hasPlace = l.kind == LightKind::Point || l.kind == LightKind::Spot ||
-                              l.kind == LightKind::Projector;
-        if (hasPlace && l.quadraticAttenuation > 0)
+        if (l.isLamp() && l.quadraticAttenuation > 0)
             add(focusOf(l));
         else
             foci.others += radianceOf(l, size);

@@ -25,3 +25,10 @@ vec3 albedoUnderInterface(Material m, StatedParameters p) {
     const vec3 back = p.index[INDEX_BACK] * (hasClosure(m, BASE_IS_NONLINEAR) ? p.color : vec3(1.0));
     return p.color / ((1.0 - back) * (ratio * ratio));
 }
+
+/// What the base sends on towards wi, of what it would without an interface.
+float statedDiffuse(Material m, StatedParameters p, vec3 wi) {
+    if (!sceneHas(CLOSURE_LAYERS)) return 1.0;
+    const float through = throughInterface(m, p, abs(wi.z));
+    return hasClosure(m, CLOSURE_LAYERS) ? through : 1.0;
+}

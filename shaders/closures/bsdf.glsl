@@ -1,6 +1,7 @@
-// How materials scatter light. A material is a short list of closures: a recipe says which, with what weights as one
-// direction sees them (closures.glsl); here all are evaluated together, and sampled by choosing one. The integrator, light
-// sampling and MIS ask for values, densities and lobes (surface_bsdf.glsl), never for what a material is made of.
+// How materials scatter light. A material is a short list of closures, with weights as one direction sees them, which
+// follow from its parameters, or by a recipe (principled.glsl, burley.glsl); all are evaluated together, and sampled by
+// choosing one. The integrator, light sampling and MIS ask for values, densities and lobes (surface_bsdf.glsl), never for
+// what a material is made of.
 // docs/theory/surfaces.md has the formulas, docs/theory/extending.md says how to add a closure.
 
 /// Value and density of a BSDF for one pair of directions; both 0 where nothing scatters.
@@ -27,12 +28,93 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "closures/facets.glsl"
 #include "closures/sheen.glsl"
 #include "closures/film.glsl"
-#include "closures/closures.glsl"
+
+// --- A material as one direction sees it ----------------------------------------------------------
+// Its closures with their weights, and the probabilities with which samples choose them. Directions are unit vectors in the
+// frame of the shading normal.
+
+const bool SCENE_REFRACTS = (CLOSURES & (INTERFACE_REFRACTS)) != 0u;
+const bool SCENE_TRANSMITS = (CLOSURES & (INTERFACE_REFRACTS | INTERFACE_IS_THIN)) != 0u;
+const bool HAS_COAT = (CLOSURES & (CLOSURE_COAT)) != 0u;
+/// Whether some base scatters to the other side in glTF's model.
+const bool HAS_THROUGH = (CLOSURES & (LOBE_DIFFUSE_TRANSMISSION)) != 0u;
+const bool HAS_SHEEN = (CLOSURES & (CLOSURE_SHEEN)) != 0u;
+/// Bits of materials of which samples choose one of several closures.
+const uint CHOSEN_CLOSURES = CLOSURE_LAYERS | CLOSURE_COAT | CLOSURE_SHEEN | LOBE_DIFFUSE_TRANSMISSION |
+                             RECIPE_PRINCIPLED | RECIPE_BURLEY;
+const bool SAMPLES_CHOOSE = (CLOSURES & (CHOSEN_CLOSURES)) != 0u;
+/// Whether coats of some materials have normals of their own: DETAIL_COAT_HAS_NORMAL.
+bool sceneHasCoatNormals() {
+    const uint maps = 1u << TEXTURE_NORMAL | 1u << TEXTURE_CLEARCOAT_NORMAL;
+    return HAS_COAT && sceneHas(RECIPE_PRINCIPLED) && (TEXTURE_SLOTS & maps) != 0u;
+}
+
+/// Where light comes from, as a material sees it. wo: unit, in the frame of the shading normal, whose z axis
+/// is on the side of wo (without FACES_FORWARD on either); entering: wo is outside of what the
+/// surface bounds.
+struct Incidence {
+    vec3 wo;
+    bool entering;
+    vec3 coat; ///< unit; the clear coat's normal, in the same frame
+};
+
+/// What the interface of glTF's model is made of.
+struct PrincipledInterface {
+    float metallic, transmission; ///< transmission: of the dielectric
+    vec3 baseColor;
+    vec3 f0; ///< of the dielectric
+    float f90;
+    float index;  ///< inside over outside
+    float spread; ///< half of what blue light's index has more than red light's
+    bool isInside; ///< of the volume
+    float film;    ///< strength of interference in a thin film
+    float filmIor, filmThickness; ///< nanometres
+    float albedo; ///< ggxAlbedo() of the microfacets
+    vec3 given, givenMetal; ///< under a film, reflectances by which light that facets scatter again is given back
+};
+
+/// What the interface and the base of Burley's model are made of.
+struct BurleyInterface {
+    bool isInside; ///< of a volume: only its interface is seen
+    float clear;   ///< weight of the interface without a base
+    vec3 tint;     ///< hue of the base colour
+};
+
+struct Closures {
+    vec3 wo;
+    float eta;        ///< index on the side of wo over that on the other
+    bool isSmooth;    ///< the interface is a plane
+    bool isThin;      ///< what is transmitted goes straight through
+    FacetShape facets;
+    FacetShape thinFacets; ///< of what a sheet of Burley's model transmits
+    vec2 grain;            ///< cosine and sine of the angle from the tangent to the facets' first direction
+    float interfaceWeight; ///< what the layers above leave to the interface
+    vec3 diffuse;          ///< albedo of the base, times what reaches it and leaves it towards wo
+    vec3 through;          ///< the same of diffuse transmission
+    vec3 sheen;
+    float sheenAlpha;
+    float coat; ///< weight
+    float coatAlpha;
+    vec3 coatNormal;
+    float diffuseShare, throughShare, sheenShare, coatShare; ///< probabilities; the rest is the interface's
+    PrincipledInterface principled;
+    BurleyInterface burley;
+};
+
+float interfaceShare(Closures c) { return max(1.0 - c.diffuseShare - c.throughShare - c.sheenShare - c.coatShare, 0.0); }
+
+/// What the interface does with light at one of its facets, or the plane (interface.glsl).
+struct InterfaceLight {
+    vec3 reflected, transmitted;
+    float cosTransmitted; ///< 0 in total reflection
+    float reflects;       ///< probability with which samples are reflected
+};
+
 #include "closures/base.glsl"
-#include "closures/stated.glsl"
 #include "closures/principled.glsl"
 #include "closures/burley.glsl"
 #include "closures/phase.glsl"
+#include "closures/interface.glsl"
 
 /// All lobes of a material.
 uint lobesOf(Material m) {
@@ -53,6 +135,27 @@ bool boundsVolume(Material m) {
 
 // --- All closures together ------------------------------------------------------------------------
 
+/// The base and the interface of a material without a recipe, as wo sees them.
+void stateClosures(inout Closures c, Material m, StatedParameters p, Incidence i) {
+    const bool hasBase = hasClosure(m, CLOSURE_BASE);
+    c.isSmooth = hasClosure(m, INTERFACE_IS_SMOOTH);
+    c.isThin = hasClosure(m, INTERFACE_IS_THIN);
+    const float ratio = p.index[INDEX_RATIO];
+    c.eta = i.entering || c.isThin || hasBase ? 1.0 / ratio : ratio; // an opaque base has no inside
+    const bool isRefracting = hasClosure(m, INTERFACE_IS_DIELECTRIC) && !hasBase;
+    const float least = max(LEAST_GGX_ALPHA, isRefracting ? p.index[INDEX_LEAST_ALPHA] : 0.0);
+    c.facets = facetShape(max(vec2(p.alphaX, p.alphaY), vec2(least)), m.header.w);
+    c.diffuse = p.color;
+    c.diffuseShare = hasBase ? 1.0 : 0.0;
+    if (sceneHas(CLOSURE_LAYERS) && hasClosure(m, CLOSURE_LAYERS)) {
+        // By what the interface reflects towards wo and by the colours of both.
+        const float through = throughInterface(m, p, i.wo.z);
+        const float top = (1.0 - through) * mean(p.edge), base = through * mean(p.color);
+        c.diffuse = through * albedoUnderInterface(m, p);
+        c.diffuseShare = top > 0.0 ? base / (top + base) : 1.0;
+    }
+}
+
 Closures closuresOf(Material m, Incidence i) {
     Closures c;
     c.wo = i.wo;
@@ -68,100 +171,6 @@ Closures closuresOf(Material m, Incidence i) {
     if (isPrincipled) principledClosures(c, principledParameters(m), i);
     if (isBurley) burleyClosures(c, m, burleyParameters(m), i);
     return c;
-}
-
-/// What the interface does with light that meets a facet, or the plane, at a cosine > 0. cosI: between the normal and
-/// the direction of light that it reflects.
-InterfaceLight interfaceLight(Material m, Closures c, float cosine, float cosI) {
-    const float met = min(cosine, 1.0);
-    float exact = 1.0, cosTransmitted = 0.0;
-    if (sceneHas(INTERFACE_IS_DIELECTRIC)) exact = fresnelDielectric(met, c.eta, cosTransmitted);
-    const bool isPrincipled = hasClosure(m, RECIPE_PRINCIPLED), isBurley = hasClosure(m, RECIPE_BURLEY);
-    InterfaceLight f = InterfaceLight(vec3(0.0), vec3(0.0), cosTransmitted, 1.0);
-    if (!isPrincipled && !isBurley) f = statedLight(m, statedParameters(m), c, met, cosI, exact, cosTransmitted);
-    if (isPrincipled) f = principledLight(c, cosine, exact, cosTransmitted);
-    if (isBurley) f = burleyLight(c, burleyParameters(m), cosine, exact, cosTransmitted);
-    if (!SCENE_TRANSMITS) return f;
-    const float reflected = mean(f.reflected), transmitted = mean(f.transmitted);
-    f.reflects = transmitted > 0.0 ? reflected / (reflected + transmitted) : 1.0;
-    // Reflection and transmission of a sheet of Burley's model have facets of their own.
-    if (isBurley && c.isThin) f.reflects = 0.5;
-    // Radiance over the squared index is invariant.
-    if (!c.isThin) f.transmitted *= c.isSmooth ? radianceCompression(c.eta) : c.eta * c.eta;
-    return f;
-}
-
-/// Whether light goes from wo to wi through the interface, bent.
-bool isBent(Closures c, vec3 wi) { return SCENE_REFRACTS && wi.z < 0.0 && !c.isThin; }
-
-/// The normal of the facets that send light from wo to wi: between both; of a sheet, between wo and what it would
-/// reflect.
-vec3 normalBetween(Closures c, vec3 wo, vec3 wi) {
-    vec3 h = wo + vec3(wi.xy, abs(wi.z));
-    if (isBent(c, wi)) {
-        h = c.eta * wo + wi;
-        h = h.z < 0.0 ? -h : h;
-    }
-    return unit(h);
-}
-
-/// The interface's microfacets, reflected or transmitted. wo, wi, h: along the grain; h: normalBetween() them.
-BsdfValue evaluateFacets(Material m, Closures c, vec3 wo, vec3 wi, vec3 h) {
-    const bool transmits = wi.z < 0.0, bends = isBent(c, wi);
-    const bool isSheet = hasClosure(m, RECIPE_BURLEY) && c.isThin;
-    const float cosO = dot(wo, h), cosI = dot(wi, h);
-    FacetShape shape = c.facets;
-    if (isSheet && transmits) shape = c.thinFacets;
-    const InterfaceLight face = interfaceLight(m, c, cosO, wi.z);
-    // Solid angle of normals over that of directions, times the cosine of which visible normals have one.
-    const float across = c.eta * cosO + cosI;
-    const float perNormal = bends ? cosO * abs(cosI) / max(across * across, TINY) : 0.25;
-    const float area = facetArea(shape, wo), density = facetD(shape, h) * perNormal / area;
-    // Facets of a sheet of Burley's model do not send light on to their own side.
-    const float lit = isSheet && transmits && !(cosI < 0.0) ? 0.0 : facetsLit(shape, wo, area, wi);
-    BsdfValue f = BsdfValue((transmits ? face.transmitted : face.reflected) * (density * lit),
-                            density * (transmits ? 1.0 - face.reflects : face.reflects));
-    const bool possible = cosO > 0.0 && (!bends || cosI < 0.0) && !c.isSmooth;
-    if (!possible) f = NO_SCATTERING;
-    return f;
-}
-
-/// Light of three channels has three indices where a volume disperses. The interface as one of them meets it.
-Closures ofChannel(Closures c, uint channel) {
-    c.principled.index = max(c.principled.index + c.principled.spread * (float(channel) - 1.0), 1.0 + LEAST_INDEX_STEP);
-    c.eta = c.eta > 1.0 ? c.principled.index : 1.0 / c.principled.index;
-    return c;
-}
-
-bool disperses(Material m, Closures c) {
-    return HAS_DISPERSION && hasClosure(m, RECIPE_PRINCIPLED) && c.principled.spread > 0.0;
-}
-
-/// Samples follow each channel in a third of the cases: the density is the mean of theirs, and no channel's value is
-/// more than three times its own (the balance heuristic of Veach).
-BsdfValue evaluateDispersed(Material m, Closures c, vec3 wo, vec3 wi) {
-    BsdfValue f = NO_SCATTERING;
-    uint channel = 0u;
-    do {
-        const Closures one = ofChannel(c, channel);
-        const BsdfValue facets = evaluateFacets(m, one, wo, wi, normalBetween(one, wo, wi));
-        f.value += facets.value * vec3(equal(uvec3(channel), uvec3(0u, 1u, 2u)));
-        f.pdf += facets.pdf * (1.0 / 3.0);
-        ++channel;
-    } while (channel < 3u);
-    return f;
-}
-
-/// The clear coat of glTF's model: f cos and density.
-BsdfValue evaluateCoat(Closures c, vec3 wi) {
-    const vec3 wo_ = toCoat(c, c.wo), wi_ = toCoat(c, wi);
-    const FacetShape shape = FacetShape(vec2(c.coatAlpha), false, false);
-    const vec3 h = unit(wo_ + wi_);
-    const float area = facetArea(shape, wo_), density = ggxD(h, shape.alpha) * 0.25 / area;
-    const float fresnel = mix(CLEARCOAT_F0, 1.0, schlickWeight(dot(wo_, h)));
-    BsdfValue f = BsdfValue(vec3(c.coat * fresnel * density * facetsLit(shape, wo_, area, wi_)), density);
-    if (!(wo_.z > 0.0 && wi_.z > 0.0)) f = NO_SCATTERING;
-    return f;
 }
 
 /// The base, diffusely reflected or transmitted, and sheen; f cos.
@@ -243,45 +252,6 @@ ClosureChoice chooseClosure(Material m, Closures c, vec2 u) {
                                     : (choice.sheen ? sheenEnd : (choice.coat ? coatEnd : 1.0));
     choice.rest = vec2(clamp((u.x - from) / (to - from), 0.0, 1.0 - UNIT_ROUNDOFF), u.y);
     return choice;
-}
-
-/// A direction of the interface or of the coat, on the side that it may be on.
-struct LeftFacet {
-    vec3 direction;
-    vec3 h;            ///< the facet's normal, along the grain
-    InterfaceLight light; ///< of a plane, or where the scene transmits
-    bool transmits;
-    bool isPossible;
-};
-
-/// u: the direction; side: chooses between reflection and transmission.
-LeftFacet leaveFacet(Material m, Closures c, bool ofCoat, vec2 u, float side) {
-    LeftFacet l;
-    const bool isBurley = hasClosure(m, RECIPE_BURLEY);
-    // A sheet of Burley's model transmits by facets of their own, which are chosen before there is a facet.
-    const bool passes = isBurley && c.isThin && side >= 0.5;
-    const vec3 wo = HAS_COAT && ofCoat ? toCoat(c, c.wo) : alongGrain(c, c.wo);
-    l.h = vec3(0.0, 0.0, FACES_FORWARD || wo.z >= 0.0 ? 1.0 : -1.0);
-    if (HAS_FACETS) {
-        FacetShape shape = c.facets;
-        if (isBurley && passes) shape = c.thinFacets;
-        if (HAS_COAT && ofCoat) shape = FacetShape(vec2(c.coatAlpha), false, false);
-        const vec3 facet = sampleFacet(shape, wo, u);
-        if (!c.isSmooth) l.h = facet;
-    }
-    if (HAS_COAT && isBurley && ofCoat) l.h = sampleBurleyCoat(c.coatAlpha, u);
-    const float cosine = dot(wo, l.h);
-    const vec3 reflected = 2.0 * cosine * l.h - wo;
-    l.light = interfaceLight(m, c, max(cosine, 0.0), reflected.z);
-    l.transmits = SCENE_TRANSMITS && !ofCoat && side >= l.light.reflects;
-    vec3 wi = reflected;
-    if (l.transmits) {
-        wi = vec3(reflected.xy, -reflected.z);
-        if (SCENE_REFRACTS && !c.isThin) wi = (c.eta * cosine - l.light.cosTransmitted) * l.h - c.eta * wo;
-    }
-    l.isPossible = c.isSmooth || (cosine > 0.0 && (ofCoat ? wi.z > 0.0 : true));
-    l.direction = HAS_COAT && ofCoat ? fromCoat(c, wi) : acrossGrain(c, wi);
-    return l;
 }
 
 /// u.x chooses the closure, and what is left of it and u.y the direction; u.z chooses between reflection and

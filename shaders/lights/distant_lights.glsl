@@ -1,4 +1,4 @@
-// Lights from infinity: ambient light, which is the same from everywhere, and directional light.
+// Lights from infinity that rays find: ambient light, which is the same from everywhere, and the environment.
 
 #include "lights/portals.glsl"
 #include "lights/environment.glsl"
@@ -33,11 +33,6 @@ LightSample sampleAmbientLight(const Frame frame, SurfacePoint s, LightRows rows
         }
     }
     return skySample(frame, p, n, aimed, w, ambientRadianceOf(rows, w), inversePdf);
-}
-
-LightSample sampleDirectionalLight(LightRows rows) {
-    const vec3 w = directionalLight(rows).toLight;
-    return LightSample(w, true, w, colorOf(rows), 0.0);
 }
 
 /// What a ray finds that meets nothing: the scene's ambient light or environment. It is the first in the

@@ -29,7 +29,8 @@ LightRows fetchLight(const OnlyLight onlyLight, uint light) {
 #include "lights/area_lights.glsl"
 #include "lights/choice_number.glsl"
 #include "lights/distant_lights.glsl"
-#include "lights/point_lights.glsl"
+#define SAMPLES_DELTA_LIGHTS
+#include "shared/delta_lights.h"
 #include "lights/light_tree.glsl"
 #include "lights/light_sampler.glsl"
 

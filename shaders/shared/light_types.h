@@ -6,13 +6,14 @@
 #ifndef STROMBOLI_SHARED_LIGHT_TYPES_H
 #define STROMBOLI_SHARED_LIGHT_TYPES_H
 
+#include "delta_lights.h"
 #include "language.h"
 
 SHARED_BEGIN
 
 // --- Kinds of light and their parameters -----------------------------------------------------
 
-// F(name, number, rows, label): the kinds of light.
+// F(name, number, rows, label): the kinds of light, by their numbers.
 //   rows   how many rows of parameters are read of it
 //   label  what `stromboli info` calls it
 #define LIGHT_LIST(F) \
@@ -20,11 +21,8 @@ SHARED_BEGIN
     F(TRIANGLE, 1, 0, "triangle") \
     F(SPHERE, 2, 1, "sphere") \
     F(AMBIENT, 3, 1, "ambient") \
-    F(DIRECTIONAL, 4, 1, "directional") \
-    F(POINT, 5, 2, "point") \
-    F(SPOT, 6, 3, "spot") \
-    F(ENVIRONMENT, 7, 2, "environment") \
-    F(PROJECTOR, 8, 3, "projector")
+    F(ENVIRONMENT, 4, 2, "environment") \
+    DELTA_LIGHT_LIST(F)
 
 #define NUMBER_LIGHT(name, number, rows, label) SHARED_CONST uint LIGHT_##name = uint(number);
 LIGHT_LIST(NUMBER_LIGHT)
@@ -68,22 +66,6 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
     F(vec3, fromAbove, 1, xyz) \
     F(uint, unused, 1, w)
 
-/// toLight: unit.
-#define DIRECTIONAL_LIGHT(F) \
-    F(vec3, toLight, 1, xyz) \
-    F(uint, unused, 1, w)
-
-/// A point light, or a spot light: a point light that shines into a cone. attenuation: constant, linear and quadratic.
-/// Spot: falloffExponent is that of the cosine to the axis, a unit vector that the light travels along; cosCutoff the
-/// cosine of half the opening angle; softness 1 / (cosine of half the inner angle - cosCutoff), or 0: no inner cone.
-#define POINT_LIGHT(F) \
-    F(vec3, position, 1, xyz) \
-    F(float, falloffExponent, 1, w) \
-    F(vec3, attenuation, 2, xyz) \
-    F(float, cosCutoff, 2, w) \
-    F(vec3, axis, 3, xyz) \
-    F(float, softness, 3, w)
-
 /// A picture around the scene (scene/model/environment.hpp); it takes the place of ambient light. The header's
 /// colour multiplies its radiance. density: of a sample by solid angle, where the interpolated weight is the sine of the
 /// polar angle. Its texels lie in `tiles` squares of 2^tileShift columns and rows, or what of them is in the picture,
@@ -98,17 +80,6 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
     F(uint, tilesAcross, 2, z) \
     F(uint, tiles, 2, w)
 
-/// A light that throws a picture (scene/model/light.hpp). u is 0.5 + acrossU . d / axis . d. cosCutoff: of the angle to
-/// the axis where it ends; softness: 1 / the angle over which it ends, or 0: at once. picture: first row of its
-/// TextureUse in the material buffer; 0: none.
-#define PROJECTOR_LIGHT(F) \
-    F(vec3, position, 1, xyz) \
-    F(float, cosCutoff, 1, w) \
-    F(vec3, acrossU, 2, xyz) \
-    F(float, softness, 2, w) \
-    F(vec3, acrossV, 3, xyz) \
-    F(uint, picture, 3, w)
-
 // F(structure, function, fields, met, sample): how the kernel reads and samples lights (shaders/lights/lights.glsl).
 //   met     GLSL: whether a light of this `kind` has that structure, by isLight()
 //   sample  GLSL: a LightSample of it, for `given`, a surface `s`, its `rows` and two numbers `u`
@@ -116,13 +87,9 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
     F(QuadLight, quadLight, QUAD_LIGHT, isLight(kind, LIGHT_QUAD), sampleQuadLight(given.onlyLight, s, rows, u)) \
     F(SphereLight, sphereLight, SPHERE_LIGHT, isLight(kind, LIGHT_SPHERE), sampleSphereLight(s, rows, u)) \
     F(AmbientLight, ambientLight, AMBIENT_LIGHT, isLight(kind, LIGHT_AMBIENT), sampleAmbientLight(given.frame, s, rows, u)) \
-    F(DirectionalLight, directionalLight, DIRECTIONAL_LIGHT, isLight(kind, LIGHT_DIRECTIONAL), \
-      sampleDirectionalLight(rows)) \
     F(EnvironmentLight, environmentLight, ENVIRONMENT_LIGHT, isLight(kind, LIGHT_ENVIRONMENT), \
       sampleEnvironment(given.frame, s, rows, u)) \
-    F(ProjectorLight, projectorLight, PROJECTOR_LIGHT, isLight(kind, LIGHT_PROJECTOR), sampleProjector(s, rows)) \
-    F(PointLight, pointLight, POINT_LIGHT, isLight(kind, LIGHT_POINT) || isLight(kind, LIGHT_SPOT), \
-      samplePointLight(s, rows))
+    DELTA_LIGHT_STRUCTURES(F)
 
 #define DECLARE_FIELD(type, name, row, place) type name;
 #define DECLARE_LIGHT(structure, function, fields, met, sample) \

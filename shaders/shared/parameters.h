@@ -1,13 +1,117 @@
-// What materials are made of: a table of parameters for each recipe by which closures follow from a material, and
-// which textures multiply them. From these tables C++ and GLSL have the structures, the code that reads and packs them
-// and their places in the rows behind a material's header; `tests/shaders/layout_test.cpp` reads every one back.
+// What materials are made of: the closures that scatter light, which of them a material has, a table of parameters for each
+// recipe by which closures follow from a material, and which textures multiply them. From these tables C++ and GLSL have the
+// bits, the structures, the code that reads and packs them and their places in the rows behind a material's header;
+// `tests/shaders/layout_test.cpp` reads every one back. docs/theory/extending.md says how to add a closure.
 #ifndef STROMBOLI_SHARED_PARAMETERS_H
 #define STROMBOLI_SHARED_PARAMETERS_H
 
-#include "bsdf_types.h"
 #include "language.h"
 
 SHARED_BEGIN
+
+// --- Lobes and closures ----------------------------------------------------------------------
+// A BSDF is a sum of lobes; each is one of the LOBE_ bits. Delta lobes scatter into single directions: no light sample
+// finds one, and their densities have no value.
+//
+// A material is a short list of closures, which scatter light together: a diffuse base, an interface on it (a plane, or
+// microfacets), a clear coat, sheen. The other bits say which ones it has and how they are; all are the low bits of
+// MaterialHeader::closures. A scene's kernel knows which bits some material has and which ones all have that they concern
+// (CLOSURES, CLOSURES_OF_ALL).
+
+// F(name, bit, label): label: what `stromboli info` calls it. Of them:
+//   CLOSURE_LAYERS           base or coat beside the interface, so that samples choose
+//   INTERFACE_IS_IDEAL       all is reflected; a dielectric: all is transmitted but in total reflection
+//   INTERFACE_REFRACTS       into a volume
+//   INTERFACE_IS_THIN        a sheet that transmits: light goes straight through
+//   FACETS_ARE_BECKMANN      else GGX
+//   FACETS_ARE_SEPARABLE     masking and shadowing; else correlated by height
+//   FACETS_ARE_TURNED        stretched along a direction in the frame of the tangent
+//   BASE_IS_NONLINEAR        its colour deepens with each reflection between base and interface
+//   HAS_BASE_COLOR           the first row is what base colours multiply
+//   PHASE_FUNCTION           it is no surface but a medium (medium_types.h)
+//   RECIPE_                  its closures follow from glTF's metallic-roughness model, or from Burley's; else they are
+//                            stated (parameters.h)
+#define CLOSURE_LIST(F) \
+    F(LOBE_DIFFUSE_REFLECTION, 0, "diffuse reflection") \
+    F(LOBE_GLOSSY_REFLECTION, 1, "glossy reflection") \
+    F(LOBE_DELTA_REFLECTION, 2, "mirror reflection") \
+    F(LOBE_DIFFUSE_TRANSMISSION, 3, "diffuse transmission") \
+    F(LOBE_GLOSSY_TRANSMISSION, 4, "glossy transmission") \
+    F(LOBE_DELTA_TRANSMISSION, 5, "clear transmission") \
+    F(CLOSURE_BASE, 6, "diffuse base") \
+    F(CLOSURE_INTERFACE, 7, "interface") \
+    F(CLOSURE_LAYERS, 8, "base under an interface") \
+    F(CLOSURE_COAT, 9, "clear coat") \
+    F(CLOSURE_SHEEN, 10, "sheen") \
+    F(INTERFACE_IS_SMOOTH, 11, "smooth interface") \
+    F(INTERFACE_IS_CONDUCTOR, 12, "conductor") \
+    F(INTERFACE_IS_DIELECTRIC, 13, "dielectric") \
+    F(INTERFACE_IS_IDEAL, 14, "ideal interface") \
+    F(INTERFACE_REFRACTS, 15, "refraction") \
+    F(INTERFACE_IS_THIN, 16, "thin sheet") \
+    F(FACETS_ARE_BECKMANN, 17, "Beckmann's microfacets") \
+    F(FACETS_ARE_SEPARABLE, 18, "separable masking") \
+    F(FACETS_ARE_TURNED, 19, "turned grain") \
+    F(BASE_IS_NONLINEAR, 20, "base that deepens") \
+    F(VOLUME_ABSORBS, 21, "absorption") \
+    F(HAS_BASE_COLOR, 22, "base color") \
+    F(RECIPE_PRINCIPLED, 23, "glTF's recipe") \
+    F(RECIPE_BURLEY, 24, "Burley's recipe") \
+    F(PHASE_FUNCTION, 25, "phase function") \
+    F(PHASE_IS_RAYLEIGH, 26, "Rayleigh's phase function")
+
+#define NAME_CLOSURE(name, bit, label) SHARED_CONST uint name = 1u << bit;
+CLOSURE_LIST(NAME_CLOSURE)
+#undef NAME_CLOSURE
+#define ADD_CLOSURE(name, bit, label) | name
+SHARED_CONST uint CLOSURE_MASK = 0u CLOSURE_LIST(ADD_CLOSURE);
+#undef ADD_CLOSURE
+
+SHARED_CONST uint DELTA_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
+SHARED_CONST uint GLOSSY_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
+SHARED_CONST uint DIFFUSE_LOBES = LOBE_DIFFUSE_REFLECTION | LOBE_DIFFUSE_TRANSMISSION;
+SHARED_CONST uint TRANSMISSION_LOBES =
+    LOBE_DIFFUSE_TRANSMISSION | LOBE_GLOSSY_TRANSMISSION | LOBE_DELTA_TRANSMISSION;
+SHARED_CONST uint LOBE_MASK =
+    LOBE_DIFFUSE_REFLECTION | LOBE_GLOSSY_REFLECTION | LOBE_DELTA_REFLECTION | TRANSMISSION_LOBES;
+
+/// Bits that concern materials with an interface only, and those that concern microfacets only.
+SHARED_CONST uint INTERFACE_BITS = INTERFACE_IS_SMOOTH | INTERFACE_IS_CONDUCTOR | INTERFACE_IS_DIELECTRIC | INTERFACE_IS_IDEAL;
+SHARED_CONST uint FACETS_BITS = FACETS_ARE_BECKMANN | FACETS_ARE_SEPARABLE;
+
+// F(kind, when, bits): a material `m` of that MaterialKind has these bits where `when` is true; all C++
+// (host/kernel/material_rows.cpp). isSmooth: its interface is a plane. plane: bits of that, or of its microfacets; reflects,
+// passes: the lobes of either. Samples of a mixture of closures count as glossy ones: they have the density of all.
+#define CLOSURES_OF_KINDS(F) \
+    F(Diffuse, true, CLOSURE_BASE | LOBE_DIFFUSE_REFLECTION) \
+    F(Mirror, true, CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_IDEAL | LOBE_DELTA_REFLECTION) \
+    F(Refraction, true, CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_IDEAL | INTERFACE_IS_DIELECTRIC) \
+    F(Refraction, true, INTERFACE_REFRACTS | LOBE_DELTA_TRANSMISSION) \
+    F(Conductor, true, CLOSURE_INTERFACE | INTERFACE_IS_CONDUCTOR | plane | reflects) \
+    F(Dielectric, true, CLOSURE_INTERFACE | INTERFACE_IS_DIELECTRIC | INTERFACE_REFRACTS | plane | reflects | passes) \
+    F(ThinDielectric, true, CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_DIELECTRIC | INTERFACE_IS_THIN) \
+    F(ThinDielectric, true, LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION) \
+    F(Plastic, true, CLOSURE_BASE | CLOSURE_INTERFACE | CLOSURE_LAYERS | INTERFACE_IS_DIELECTRIC | plane | reflects) \
+    F(Plastic, isSmooth, LOBE_DIFFUSE_REFLECTION) \
+    F(Plastic, m.isNonlinear, BASE_IS_NONLINEAR) \
+    F(Principled, true, RECIPE_PRINCIPLED | CLOSURE_BASE | CLOSURE_INTERFACE | LOBE_GLOSSY_REFLECTION) \
+    F(Principled, m.principled.clearcoat > 0, CLOSURE_COAT) \
+    F(Principled, m.principled.sheenColor != glm::vec3(0), CLOSURE_SHEEN) \
+    F(Principled, m.principled.anisotropy > 0, FACETS_ARE_TURNED) \
+    F(Principled, transmits(m), LOBE_GLOSSY_TRANSMISSION) \
+    F(Principled, transmits(m) && m.principled.isThin, INTERFACE_IS_THIN) \
+    F(Principled, passesDiffusely(m), LOBE_DIFFUSE_TRANSMISSION | LOBE_GLOSSY_TRANSMISSION) \
+    F(Principled, refracts(m), INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC) \
+    F(Principled, absorbs(m), VOLUME_ABSORBS) \
+    F(Burley, true, RECIPE_BURLEY | CLOSURE_BASE | CLOSURE_INTERFACE | INTERFACE_IS_DIELECTRIC) \
+    F(Burley, true, FACETS_ARE_SEPARABLE | LOBE_GLOSSY_REFLECTION) \
+    F(Burley, m.burley.clearcoat > 0 && !m.burley.isThin, CLOSURE_COAT) \
+    F(Burley, m.burley.sheen > 0, CLOSURE_SHEEN) \
+    F(Burley, m.burley.isThin, INTERFACE_IS_THIN) \
+    F(Burley, passesThrough(m) && !m.burley.isThin, INTERFACE_REFRACTS) \
+    F(Burley, passesThrough(m), LOBE_GLOSSY_TRANSMISSION)
+
+// --- Parameters ------------------------------------------------------------------------------
 
 // F(type, name, row, place, value): in the order of their places, of which none is left out.
 //   row, place  where it is: a row of the material, whose header is row 0, and components of it

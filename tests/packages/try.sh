@@ -92,7 +92,7 @@ inside /env/bin/pip install -q --no-compile --no-index --find-links /wheels stro
     tail -n 20 "$log" >&2
     fail "pip does not install $(basename "$wheel")"
 }
-# Both pictures take less than a second; with lanes that a Mesa cannot do, minutes (docs/results.md, "Sixteen lanes").
+# Both pictures take less than a second; with lanes that a Mesa cannot do, minutes (docs/results.md, "Mesa 25").
 inside timeout 600 /env/bin/python -B - <<'PYTHON' || fail "the module of the wheel does not work, or takes more than 10 min"
 import numpy
 import stromboli
