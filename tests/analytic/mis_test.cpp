@@ -1,6 +1,6 @@
 // Rough metals under lights of every kind: light samples alone, bounces alone and both, weighted,
 // find the same light. The reference combines nothing, so that there two independent estimators are
-// left.
+// left, where facets are wide.
 #include "tests/analytic/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -123,23 +123,25 @@ class Mis : public testing::TestWithParam<LightCase> {
 
 TEST_P(Mis, FindsTheLightThatEitherFinds) {
     for (const double alpha : {0.03, 0.2, 0.8}) {
+        // The reference leaves the light of narrow lobes to bounces, in each mode.
+        if (alpha < 0.25 && !kCombinesLightSamplesWithBounces) continue;
         SCOPED_TRACE(alpha);
         const Estimate both = render(alpha, DirectLight::Mis, 1);
         EXPECT_GT(both.mean.x, 0);
         expectSameMean(both, render(alpha, DirectLight::Bsdf, 2));
         // A narrow lobe's light samples are so rarely in it that their error is not known.
-        if (alpha > 0.1) expectSameMean(both, render(alpha, DirectLight::Lights, 3));
+        if (alpha > 0.1 && isAnotherWay(DirectLight::Lights))
+            expectSameMean(both, render(alpha, DirectLight::Lights, 3));
     }
 }
 
 /// Diffuse surfaces share all lights, the sky alone, or none.
 TEST_P(Mis, DiffuseSurfacesToo) {
     const Material floor = diffuse(0.5f);
-    const Estimate lights = render(floor, DirectLight::Lights, 4);
-    EXPECT_GT(lights.mean.x, 0);
-    expectSameMean(render(floor, DirectLight::Mis, 5), lights);
-    expectSameMean(render(floor, DirectLight::MisAll, 6), lights);
-    expectSameMean(render(floor, DirectLight::Bsdf, 7), lights);
+    const Estimate both = render(floor, DirectLight::Mis, 5);
+    EXPECT_GT(both.mean.x, 0);
+    for (const DirectLight mode : {DirectLight::Lights, DirectLight::MisAll, DirectLight::Bsdf})
+        if (isAnotherWay(mode)) expectSameMean(render(floor, mode, 6 + uint32_t(mode)), both);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, Mis, testing::ValuesIn(kLightCases),

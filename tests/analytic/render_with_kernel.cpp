@@ -10,6 +10,8 @@ namespace stromboli::test {
 // over a path of 100 bounces the errors add up.
 const double kRounding = 0x1p-14;
 
+const bool kCombinesLightSamplesWithBounces = true;
+
 namespace {
 
 /// Any message of the validation layer fails the test that was running.

@@ -6,6 +6,8 @@ namespace stromboli::test {
 // pointCamera() sees more than a point: 1e-10 of the distance on each side.
 const double kRounding = 1e-9;
 
+const bool kCombinesLightSamplesWithBounces = false;
+
 Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                 unsigned threads) {
     ReferenceBackend backend(scene, camera, settings, threads);

@@ -76,6 +76,15 @@ void expectMean(const Estimate& found, double expected);
 /// Expects likewise of two independent estimates of one value.
 void expectSameMean(const Estimate& a, const Estimate& b);
 
+/// Whether the renderer weights light samples and bounces. The reference does not: Mis, MisAll and
+/// Lights are one estimator there, of which a picture each would be compared with itself.
+extern const bool kCombinesLightSamplesWithBounces;
+/// Whether a mode is another way to find light than those that its tests have beside it.
+inline bool isAnotherWay(DirectLight mode) {
+    return kCombinesLightSamplesWithBounces ||
+           (mode != DirectLight::MisAll && mode != DirectLight::Lights);
+}
+
 inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Mis, DirectLight::MisAll,
                                                     DirectLight::Hemisphere, DirectLight::Bsdf};
 

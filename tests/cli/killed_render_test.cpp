@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <random>
 
 namespace stromboli::test {
@@ -40,19 +41,22 @@ class KilledRender : public testing::Test {
 };
 
 /// A checkpoint takes three or four writes, counted as killedAt() counts: with fewer nothing is
-/// gained, with more the next one begins.
-TEST_F(KilledRender, FiftyTimesHasTheSameBytes) {
+/// gained, with more the next one begins. Killed once at each of twenty, in no order, so that what
+/// is left of a run is what another begins with.
+TEST_F(KilledRender, TwentyTimesHasTheSameBytes) {
     ASSERT_EQ(stromboli(arguments("whole.exr")).exitCode, 0);
     const std::string whole = bytesOf("whole.exr");
     ASSERT_FALSE(whole.empty());
 
+    std::vector<uint32_t> writes(20);
+    std::iota(writes.begin(), writes.end(), 1u);
     std::mt19937 random(1);
-    std::uniform_int_distribution<uint32_t> writes(1, 20);
-    int kills = 0, finished = 0, withFile = 0;
-    while (kills < 50 && finished < 50) {
-        const ProgramRun run = runUntil(writes(random), arguments("a.exr"));
+    std::shuffle(writes.begin(), writes.end(), random);
+    int finished = 0, withFile = 0;
+    while (!writes.empty() && finished < 50) {
+        const ProgramRun run = runUntil(writes.back(), arguments("a.exr"));
         if (run.exitCode == kWasKilled) {
-            ++kills;
+            writes.pop_back();
             withFile += std::filesystem::exists(folder.file("a.exr.checkpoint"));
             const std::string left = bytesOf("a.exr");
             EXPECT_TRUE(left.empty() || left == whole);
@@ -63,8 +67,8 @@ TEST_F(KilledRender, FiftyTimesHasTheSameBytes) {
         std::filesystem::remove(folder.file("a.exr"));
         ++finished;
     }
-    EXPECT_EQ(kills, 50);
-    EXPECT_GT(withFile, 10); // it was killed while it had something to lose
+    EXPECT_TRUE(writes.empty());
+    EXPECT_GT(withFile, 5); // it was killed while it had something to lose
     const ProgramRun last = stromboli(arguments("a.exr"));
     ASSERT_EQ(last.exitCode, 0) << last.err;
     EXPECT_TRUE(bytesOf("a.exr") == whole);
@@ -109,7 +113,7 @@ TEST_F(KilledRender, InBandsHasTheSameBytesToo) {
         // So that the first runs write a checkpoint, which each dispatch makes, and none of the
         // last band. Later ones go on for longer: how many dispatches a picture takes is the
         // machine's affair.
-        std::uniform_int_distribution<uint32_t> writes(3, uint32_t(5 + kills / 2));
+        std::uniform_int_distribution<uint32_t> writes(3, uint32_t(5 + 2 * kills));
         const ProgramRun run = runUntil(writes(random), inBands("a.exr", kills > 0));
         exitCode = run.exitCode;
         mostBands = std::max(mostBands, checkpoints());

@@ -105,7 +105,7 @@ TEST_F(Shares, HaveAlphaAndLayers) {
     };
     run(render("whole.exr", with(seen, {"--even"})));
     run(render("whole.png", {"--even", "--transparent"}));
-    for (uint32_t count : {1u, 3u, 7u}) {
+    for (uint32_t count : {1u, 3u}) { // and 7, below
         const Strings films = shares(count, seen);
         EXPECT_EQ(merge("sum.exr", films).exitCode, 0);
         EXPECT_TRUE(bytesOf("sum.exr") == bytesOf("whole.exr")) << count;

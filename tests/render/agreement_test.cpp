@@ -64,6 +64,11 @@ TEST_P(Agreement, WithTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(allScenes()), nameOf);
 
+/// The bundled glTF scene of which the reference knows its own error in so many samples.
+TEST(GltfAgreement, WithTheReference) {
+    expectAgreement(testDevice(), readScene("texture_chart"), "texture_chart", smallSettings(64));
+}
+
 /// Spheres of principled materials of all kinds in a lit room.
 Scene principledRoom() {
     scenes::SceneMaker b;

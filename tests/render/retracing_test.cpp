@@ -20,9 +20,9 @@ class Retracing : public DeviceTest {};
 constexpr double kOff = 2e-3;
 
 TEST_F(Retracing, KernelAndReferenceFindTheSameOnOnePath) {
-    for (const char* name :
-         {"cornell_boxes", "cornell_mirror_glass", "cornell_metal", "light_sphere",
-          "light_directional", "light_ambient", "texture_chart", "island"}) {
+    // Each is a kernel to compile; together they have all kinds of lights but points and spots.
+    for (const char* name : {"cornell_mirror_glass", "cornell_metal", "light_sphere",
+                             "light_ambient", "texture_chart", "island"}) {
         SCOPED_TRACE(name);
         const Scene scene = readScene(name);
         RenderSettings s;

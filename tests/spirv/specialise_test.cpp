@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string_view>
 
 namespace stromboli {
 namespace {
@@ -46,8 +47,11 @@ size_t countOf(const Words& code, uint32_t opcode) {
 class SpecialisedKernel : public testing::TestWithParam<const char*> {};
 
 TEST_P(SpecialisedKernel, IsValidAndHasNoConstantsLeft) {
+    // With everything on the kernels of all scenes are nearly one.
+    const bool isRich = std::string_view(GetParam()) == "still_life";
     for (const bool everythingOn : {false, true})
         for (const Module& m : kModules) {
+            if (everythingOn && !isRich) continue;
             const auto made = spirv::specialise(m.code, featuresOf(GetParam(), everythingOn));
             ASSERT_TRUE(made) << m.name;
             EXPECT_EQ(complaint(*made), "") << m.name << (everythingOn ? ", everything on" : "");
