@@ -173,7 +173,11 @@ def test_messages_go_to_the_logger(boxes, caplog):
     assert all(record.name == "stromboli" for record in caplog.records)
 
 
-def test_ctrl_c_ends_a_render(boxes, session):
+def test_ctrl_c_ends_a_render(boxes, session, request):
+    # A shell that starts something in the background has it ignore Ctrl-C.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
+
     def press():
         time.sleep(0.2)
         signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
