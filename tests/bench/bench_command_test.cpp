@@ -17,7 +17,8 @@ constexpr int kUsage = 1, kScene = 2, kOutput = 4;
 ProgramRun bench(std::vector<std::string> arguments) {
     // Short, should a wrong command line be taken for a right one.
     arguments.insert(arguments.begin(), {"bench", "--quick", "--repeats", "1"});
-    return stromboli(arguments);
+    // Kernels take longer to compile than these pictures; lavapipe leaves out optimisation.
+    return stromboli(arguments, "GALLIVM_PERF=nopt");
 }
 
 void expectRefused(const ProgramRun& run, int exitCode, const std::string& message) {

@@ -219,8 +219,7 @@ TEST_F(TexturedRoomBytes, AreTheSameHoweverWorkIsCut) {
                                        {.lanes = 100, .fixedIterations = 50},
                                        {.workgroupSize = 24, .traversalSteps = 1},
                                        {.itemsPerDispatch = 7},
-                                       {.texelFetch = false},
-                                       {.registerStack = 0}}) {
+                                       {.texelFetch = false}}) {
         const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
         expectSameBytes(whole, cut);
     }
