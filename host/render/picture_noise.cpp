@@ -126,31 +126,27 @@ constexpr double kDarkest = 0.9;
 /// takes it to be like any of its neighbours: where a lamp reaches into a pixel by a little, few
 /// samples meet it, and one that does makes the largest error of the picture.
 struct Errors {
-    /// x of one pixel: `apart` and `together`.
     struct Pixel {
         double apart = 0, together = 0;
         double product() const { return apart * together; }
     };
     double apart = 0, apartSquared = 0, together = 0, likeAny = 0;
-    double samples = 0;
-    uint64_t pixels = 0;
+    double samples = 0, pixels = 0;
     std::vector<Pixel> worst; ///< kWorstPixels at most, the worst first
 
-    void keepIfAmongWorst(const Pixel& pixel) {
+    void keepIfAmongWorst(const Pixel& p) {
         const auto place =
-            std::ranges::upper_bound(worst, pixel.product(), std::greater(), &Pixel::product);
-        if (place == worst.end() && worst.size() == kWorstPixels) return;
-        worst.insert(place, pixel);
+            std::ranges::upper_bound(worst, p.product(), std::greater(), &Pixel::product);
+        worst.insert(place, p);
         if (worst.size() > kWorstPixels) worst.pop_back();
     }
 
     /// Of the square of the picture's noise, which is the geometric mean of both.
     double shareOfWorst() const {
         Pixel sum;
-        for (const Pixel& pixel : worst)
-            sum.apart += pixel.apart, sum.together += pixel.together;
-        const double all = apart * together;
-        return all > 0 ? std::sqrt(sum.product() / all) : 0;
+        for (const Pixel& p : worst)
+            sum = {sum.apart + p.apart, sum.together + p.together};
+        return apart * together > 0 ? std::sqrt(sum.product() / (apart * together)) : 0;
     }
 };
 
@@ -308,16 +304,15 @@ PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredE
     // it is to hold vary so: half as many degrees of freedom as the estimate alone has.
     const double pixels = errors.apart * errors.apart / errors.apartSquared;
     if (pixels < kLeastPixels) return {Unknown::TooFewPixels};
-    const double apart = errors.apart / double(errors.pixels);
-    const double together = errors.together / double(errors.pixels);
-    const double likeAny = errors.likeAny / double(errors.pixels);
+    const double apart = errors.apart / errors.pixels, together = errors.together / errors.pixels;
+    const double likeAny = errors.likeAny / errors.pixels;
     PictureNoise noise{Unknown::No};
     noise.estimate = std::sqrt(std::sqrt(apart * together));
     noise.least =
         std::sqrt(std::min(apart, together) * pixels / (chiSquareQuantile(pixels, kZ) * kTooLarge));
-    noise.most = std::sqrt(std::max({apart, together, likeAny}) * pixels *
-                           tooSmall(errors.samples / double(errors.pixels)) /
-                           chiSquareQuantile(pixels, -kZ));
+    noise.most =
+        std::sqrt(std::max({apart, together, likeAny}) * pixels *
+                  tooSmall(errors.samples / errors.pixels) / chiSquareQuantile(pixels, -kZ));
     noise.ofWorst = errors.shareOfWorst();
     return noise;
 }
@@ -386,7 +381,6 @@ std::vector<double> NoiseEstimate::relativeVariance(const Film& film) const {
     std::vector<glm::dvec3> variances(film.pixels.size());
     for (size_t i = 0; i < variances.size(); ++i)
         variances[i] = memory_.squaredErrors[i] * double(memory_.counts[i]);
-    constexpr uint32_t kBand = 64; // rows a thread takes at a time
     tbb::parallel_for(0u, (film.height + kBand - 1) / kBand, [&](uint32_t band) {
         PixelWindows windows(film, variances, band * kBand);
         for (uint32_t y = band * kBand; y < std::min((band + 1) * kBand, film.height); ++y) {
