@@ -79,9 +79,12 @@ Json buffersJson(const ResolvedPicture& picture, const BuiltScene& built) {
 }
 
 /// All features, those that the kernel lacks as well.
+/// Steps between two services as a CPU device takes them: a GPU's do not depend on the scene.
+const DeviceTuning kOnACpu{.stepsFitRays = true};
+
 Json kernelJson(const ResolvedPicture& picture, const BuiltScene& built) {
     const KernelFeatures values =
-        kernelFeatures(built.gpu, picture.camera, picture.settings.estimator, {});
+        kernelFeatures(built.gpu, picture.camera, picture.settings.estimator, kOnACpu);
     Json features = Json::array();
     for (const Feature& f : featureTable())
         features.push_back({{"name", f.name},
@@ -211,7 +214,7 @@ int infoCommand(const InfoOptions& options) {
     printBvh(built);
     fmt::print("kernel (only what the scene needs)\n");
     for (const std::string& line :
-         describe(kernelFeatures(built.gpu, picture.camera, settings.estimator, {})))
+         describe(kernelFeatures(built.gpu, picture.camera, settings.estimator, kOnACpu)))
         fmt::print("  {}\n", line);
     fmt::print("buffers on the device\n");
     uint64_t total = 0;

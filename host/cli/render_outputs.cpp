@@ -44,11 +44,12 @@ std::string inWords(const PictureNoise& noise) {
 std::string worstPixelsInWords(const PictureNoise& noise, bool isDenoised) {
     constexpr double kMost = 0.5;
     if (!noise.known() || noise.ofWorst < kMost) return {};
-    return fmt::format("ten pixels have {} % of that (fireflies); without them the noise is about "
-                       "{} %{}",
-                       percent(noise.ofWorst),
-                       percent(noise.estimate * std::sqrt(1 - noise.ofWorst)),
-                       isDenoised ? "" : ": --denoise spreads them, --clamp-indirect limits them");
+    return fmt::format(
+        "{} of the pixels have {} % of its square (fireflies); without them the noise "
+        "is about {} %{}",
+        noise.worstPixels, percent(noise.ofWorst),
+        percent(noise.estimate * std::sqrt(1 - noise.ofWorst)),
+        isDenoised ? "" : ": --denoise spreads them, --clamp-indirect limits them");
 }
 
 namespace {
@@ -209,7 +210,8 @@ void writeStatistics(const std::string& file, const RenderReport& report, const 
         {"samplesRejected", r.samplesRejected},
         {"noise", r.noise.known() ? Json(r.noise.estimate) : Json()},
         {"noiseRange", r.noise.known() ? Json(std::array{r.noise.least, r.noise.most}) : Json()},
-        {"noiseOfTenWorstPixels", r.noise.known() ? Json(r.noise.ofWorst) : Json()},
+        {"worstPixels", r.noise.known() ? Json(r.noise.worstPixels) : Json()},
+        {"noiseOfWorstPixels", r.noise.known() ? Json(r.noise.ofWorst) : Json()},
     };
     if (r.denoised) {
         const denoise::Summary& d = *r.denoised;

@@ -26,7 +26,8 @@ struct RenderReport {
 
 /// "noise about 2 % (95 % range: 1.5 to 2.6 %)", or why it is unknown.
 std::string inWords(const PictureNoise& noise);
-/// What to say of a picture half of whose squared noise is that of ten pixels; empty of others.
+/// What to say of a picture whose worst pixels (PictureNoise::worstPixels) have half of its squared
+/// noise; empty of others.
 std::string worstPixelsInWords(const PictureNoise& noise, bool isDenoised);
 /// A share in percent, with two digits that say something: 0.0234 is 2.3.
 std::string percent(double share);

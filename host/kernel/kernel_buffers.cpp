@@ -29,6 +29,14 @@ uint64_t sizeOf(const Array& a) {
     return a.size() * sizeof(typename Array::value_type);
 }
 
+/// What may be large, in pages that a device can read where they lie; null: what has to be copied.
+const RowPages* pagesOf(const GpuScene& scene, uint32_t binding) {
+    if (binding == BINDING_DETAIL) return &scene.details.rows;
+    if (binding == BINDING_ENVIRONMENT && scene.lights.environment)
+        return scene.lights.environment->texels.get();
+    return nullptr;
+}
+
 } // namespace
 
 vulkan::BufferUse rowUse(const DeviceTuning& tuning) {
@@ -37,14 +45,19 @@ vulkan::BufferUse rowUse(const DeviceTuning& tuning) {
 
 std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuning& tuning) {
     const BufferUse rows = rowUse(tuning);
+    const auto inPages = [&](uint32_t binding) { return pagesOf(scene, binding) != nullptr; };
     return {{"BVH buffer", sizeOf(scene.bvh.records), rows},
             {"primitive buffer", sizeOf(scene.primitives), rows},
             {"material buffer", sizeOf(scene.materials), rows},
             {"light buffer", sizeOf(scene.lights.lights), rows},
             {"light table", sizeOf(scene.lights.table), rows},
-            {"environment", scene.lights.environmentRows().size_bytes(), rows, {}, true},
+            {"environment",
+             scene.lights.environmentRows().size_bytes(),
+             rows,
+             {},
+             inPages(BINDING_ENVIRONMENT)},
             {"texture buffer", sizeOf(scene.details.rows), rows,
-             "--max-texture N makes textures smaller", true}};
+             "--max-texture N makes textures smaller", inPages(BINDING_DETAIL)}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {
@@ -150,14 +163,6 @@ namespace {
 template <class Array>
 std::span<const std::byte> bytesOf(const Array& a) {
     return std::as_bytes(std::span(a));
-}
-
-/// What may be large, in pages that a device can read where they lie; null: what has to be copied.
-const RowPages* pagesOf(const GpuScene& scene, uint32_t binding) {
-    if (binding == BINDING_DETAIL) return &scene.details.rows;
-    if (binding == BINDING_ENVIRONMENT && scene.lights.environment)
-        return scene.lights.environment->texels.get();
-    return nullptr;
 }
 
 constexpr size_t kBuffers = 7;

@@ -8,52 +8,6 @@
 
 namespace stromboli {
 
-PixelWindows::PixelWindows(const Film& film, std::span<const glm::dvec3> values, int64_t first)
-    : film_(film), values_(values) {
-    rows_.fill(std::vector<PixelGroup>(film.width));
-    for (int64_t y = std::max<int64_t>(first - kReach, 0); y < first + kReach; ++y)
-        sumRow(y);
-}
-
-std::vector<PixelGroup> PixelWindows::of(int64_t y) {
-    sumRow(y + kReach);
-    std::vector<PixelGroup> sums = besides(y);
-    for (int64_t j = std::max<int64_t>(y - kReach, 0); j <= y + kReach; ++j)
-        for (size_t x = 0; j != y && x < sums.size(); ++x)
-            sums[x] += rows_[size_t(j) % rows_.size()][x];
-    return sums;
-}
-
-PixelGroup PixelWindows::alone(int64_t x, int64_t y) const {
-    const size_t pixel = size_t(y) * film_.width + size_t(x);
-    const PixelStatistics& p = film_.pixels[pixel];
-    if (p.count < 2) return {};
-    return {values_[pixel], p.mean, 1};
-}
-
-/// Neighbours in the same row.
-std::vector<PixelGroup> PixelWindows::besides(int64_t y) const {
-    std::vector<PixelGroup> sums(film_.width);
-    for (int64_t x = 0; x < int64_t(film_.width); ++x) {
-        const int64_t right = std::min<int64_t>(x + kReach, int64_t(film_.width) - 1);
-        for (int64_t i = std::max<int64_t>(x - kReach, 0); i <= right; ++i)
-            if (i != x) sums[size_t(x)] += alone(i, y);
-    }
-    return sums;
-}
-
-void PixelWindows::sumRow(int64_t y) {
-    std::vector<PixelGroup>& row = rows_[size_t(y) % rows_.size()];
-    std::fill(row.begin(), row.end(), PixelGroup{});
-    if (y >= int64_t(film_.height)) return;
-    for (int64_t x = 0; x < int64_t(film_.width); ++x) {
-        const PixelGroup own = alone(x, y);
-        const int64_t right = std::min<int64_t>(x + kReach, int64_t(film_.width) - 1);
-        for (int64_t i = std::max<int64_t>(x - kReach, 0); i <= right; ++i)
-            row[size_t(i)] += own;
-    }
-}
-
 namespace {
 
 /// Side of the tiles, in pixels, whose means stand between those of the picture and of a window: a
@@ -132,7 +86,7 @@ struct Errors {
     };
     double apart = 0, apartSquared = 0, together = 0, likeAny = 0;
     double samples = 0, pixels = 0;
-    std::vector<Pixel> worst; ///< kWorstPixels at most, the worst first
+    std::vector<Pixel> worst; ///< at most kWorstPixels, the worst first
 
     void keepIfAmongWorst(const Pixel& p) {
         const auto place =
@@ -141,10 +95,10 @@ struct Errors {
         if (worst.size() > kWorstPixels) worst.pop_back();
     }
 
-    /// Of the square of the picture's noise, which is the geometric mean of both.
-    double shareOfWorst() const {
+    /// That so many have in the square of the picture's noise, the geometric mean of both.
+    double shareOfWorst(uint64_t count) const {
         Pixel sum;
-        for (const Pixel& p : worst)
+        for (const Pixel& p : std::span(worst).first(count))
             sum = {sum.apart + p.apart, sum.together + p.together};
         return apart * together > 0 ? std::sqrt(sum.product() / (apart * together)) : 0;
     }
@@ -313,7 +267,8 @@ PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredE
     noise.most =
         std::sqrt(std::max({apart, together, likeAny}) * pixels *
                   tooSmall(errors.samples / errors.pixels) / chiSquareQuantile(pixels, -kZ));
-    noise.ofWorst = errors.shareOfWorst();
+    noise.worstPixels = std::min(errors.worst.size(), size_t(errors.pixels / 100));
+    noise.ofWorst = errors.shareOfWorst(noise.worstPixels);
     return noise;
 }
 
@@ -331,10 +286,15 @@ PictureNoise togetherOf(std::span<const PartNoise> parts) {
         sum.least += noise.least * noise.least * double(count);
         sum.most += noise.most * noise.most * double(count);
         sum.ofWorst += noise.ofWorst * noise.estimate * noise.estimate * double(count);
+        sum.worstPixels += noise.worstPixels;
     }
     if (!sum.known()) return sum;
-    return {Unknown::No, std::sqrt(sum.estimate / pixels), std::sqrt(sum.least / pixels),
-            std::sqrt(sum.most / pixels), sum.estimate > 0 ? sum.ofWorst / sum.estimate : 0};
+    return {Unknown::No,
+            std::sqrt(sum.estimate / pixels),
+            std::sqrt(sum.least / pixels),
+            std::sqrt(sum.most / pixels),
+            sum.estimate > 0 ? sum.ofWorst / sum.estimate : 0,
+            sum.worstPixels};
 }
 
 namespace {

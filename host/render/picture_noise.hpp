@@ -1,54 +1,12 @@
 #pragma once
 
-#include "host/film/film.hpp"
+#include "host/render/pixel_windows.hpp"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace stromboli {
-
-/// Sums over some pixels: of their means, and of a value that goes with each, per channel.
-struct PixelGroup {
-    glm::dvec3 value{0.0}, mean{0.0};
-    double pixels = 0;
-
-    void operator+=(const PixelGroup& other) {
-        value += other.value;
-        mean += other.mean;
-        pixels += other.pixels;
-    }
-};
-
-/// Sums over the neighbours of each pixel: the window of 7 x 7 pixels around it, itself left out.
-/// Row after row: the rows that a window touches are kept as sums over its width. Nothing is ever
-/// subtracted, so that a bright sample leaves no rounding error behind. Pixels of fewer than two
-/// samples count for nothing.
-class PixelWindows {
-  public:
-    /// Half the width of the window, less a half. 48 pixels of 4 samples: a relative sigma of 12 %
-    /// for normal samples. Neighbours that have more samples for a pixel's sake judge that pixel in
-    /// turn, the more so the fewer they are: 2, for all its 8 % less error, darkens
-    /// cornell_mirror_glass by 0.15 % (64 samples), 3 by 0.03 %.
-    static constexpr int64_t kReach = 3;
-
-    /// values: by pixel of the film. of() is first asked for row `first`.
-    PixelWindows(const Film& film, std::span<const glm::dvec3> values, int64_t first);
-
-    /// The groups of each pixel of row y, which must be the row after the last that was asked for.
-    std::vector<PixelGroup> of(int64_t y);
-    /// The pixel by itself.
-    PixelGroup alone(int64_t x, int64_t y) const;
-
-  private:
-    std::vector<PixelGroup> besides(int64_t y) const;
-    void sumRow(int64_t y);
-
-    const Film& film_;
-    std::span<const glm::dvec3> values_;
-    std::array<std::vector<PixelGroup>, 2 * kReach + 1> rows_; ///< of y, at y modulo their number
-};
 
 /// Share of the picture's mean radiance m that is added, squared, to the squared value an error is
 /// compared with, so that black pixels do not divide by zero: relMSE with epsilon = 0.01 m^2, as
@@ -71,9 +29,11 @@ struct PictureNoise {
     /// A range that holds the noise in 95 of 100 renders (docs/theory/noise.md, "How noisy a
     /// picture is"; docs/results.md has the test of it).
     double least = 0, most = 0;
-    /// The share of the squared noise that its kWorstPixels worst pixels have: of a picture in
-    /// parts, those of each part.
+    /// The share of the squared noise that its worst pixels have, and how many these are:
+    /// kWorstPixels, where the picture has a hundred times as many pixels, else a hundredth of
+    /// them. Of a picture in parts, those of each part.
     double ofWorst = 0;
+    uint64_t worstPixels = 0;
 
     bool known() const { return unknown == Unknown::No; }
 };

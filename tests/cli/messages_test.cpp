@@ -1,6 +1,7 @@
 // What the program says of command lines that it does not understand, or does not heed.
 #include "host/cli/command_line.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/render_outputs.hpp"
 #include "host/core/error.hpp"
 #include "host/core/nearest_name.hpp"
 #include "tests/cli/program.hpp"
@@ -157,6 +158,19 @@ TEST(Messages, AChoiceOfLightsThatIsNotMadeIsSaid) {
                 ElementsAre("the reference samples every light in turn: ignored: --light-choice"));
     EXPECT_THAT(choosing({"--integrator", "normals"}),
                 ElementsAre("--integrator normals follows no light: ignored: --light-choice"));
+}
+
+TEST(Messages, FirefliesAreSaid) {
+    using Unknown = PictureNoise::Unknown;
+    PictureNoise noise{Unknown::No, 0.5, 0.3, 0.9, 0.64, 10};
+    EXPECT_EQ(
+        worstPixelsInWords(noise, false),
+        "10 of the pixels have 64 % of its square (fireflies); without them the noise is about "
+        "30 %: --denoise spreads them, --clamp-indirect limits them");
+    EXPECT_THAT(worstPixelsInWords(noise, true), testing::EndsWith("is about 30 %"));
+    noise.ofWorst = 0.49;
+    EXPECT_EQ(worstPixelsInWords(noise, false), "");
+    EXPECT_EQ(worstPixelsInWords({Unknown::TooFewPixels, 0.5, 0.3, 0.9, 0.64, 10}, false), "");
 }
 
 TEST(Messages, WithoutArgumentsTheProgramTeaches) {

@@ -123,8 +123,9 @@ TEST_F(Program, StopsAtTheNoiseAskedForAndSaysSo) {
     EXPECT_THAT(run.err, HasSubstr("; at most 20 % was asked for"));
     const auto json = nlohmann::json::parse(std::ifstream(folder.path() / "s.json"));
     EXPECT_LE(json["noiseRange"][1].get<double>(), 0.2);
-    EXPECT_GT(json["noiseOfTenWorstPixels"].get<double>(), 0);
-    EXPECT_LT(json["noiseOfTenWorstPixels"].get<double>(), 1);
+    EXPECT_EQ(json["worstPixels"].get<uint64_t>(), 7u) << "a hundredth of 768";
+    EXPECT_GT(json["noiseOfWorstPixels"].get<double>(), 0);
+    EXPECT_LT(json["noiseOfWorstPixels"].get<double>(), 1);
     EXPECT_GT(json["noise"].get<double>(), 0.05);
     EXPECT_GE(json["samplesTaken"].get<uint64_t>(), 16u * 32 * 24);
     EXPECT_EQ(readPng(folder.file("a_rate.png")).width, 32u); // where the samples went

@@ -11,16 +11,10 @@
 # bytes are the same and all tests pass; 1 else; 77 it could not be tried here, and why.
 
 set -euo pipefail
-cannot() {
-    echo "NOT TRIED: $*" >&2
-    exit 77
-}
-(($# >= 3)) || cannot "usage: $0 SUITE FOLDER BUILD [TEST PROGRAM...]"
-((EUID == 0)) || cannot "root is needed, for chroot"
-command -v mmdebstrap >/dev/null || cannot "mmdebstrap is not installed"
 root=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
 . "$root/tests/support/bare_debian.sh"
-own_mounts "$@" || cannot "mounts are not allowed here"
+(($# >= 3)) || cannot "usage: $0 SUITE FOLDER BUILD [TEST PROGRAM...]"
+need_bare "$@"
 suite=$1
 mkdir -p "$2"
 bare=$(cd "$2" && pwd)/bare

@@ -11,20 +11,14 @@
 # here, and why.
 
 set -euo pipefail
-cannot() {
-    echo "NOT TRIED: $*" >&2
-    exit 77
-}
 fail() {
     echo "FAILED on $suite: $*" >&2
     exit 1
 }
-(($# == 3)) || cannot "usage: $0 SUITE FOLDER BUILD"
-((EUID == 0)) || cannot "root is needed, for chroot"
-command -v mmdebstrap >/dev/null || cannot "mmdebstrap is not installed"
 root=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
 . "$root/tests/support/bare_debian.sh"
-own_mounts "$@" || cannot "mounts are not allowed here"
+(($# == 3)) || cannot "usage: $0 SUITE FOLDER BUILD"
+need_bare "$@"
 suite=$1
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)

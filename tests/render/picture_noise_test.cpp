@@ -145,14 +145,28 @@ TEST(PictureNoise, SaysWhatItsTenWorstPixelsHave) {
         worst += sorted[i];
     EXPECT_NEAR(noiseOfErrors(errors).ofWorst,
                 worst / std::accumulate(errors.begin(), errors.end(), 0.0), 1e-9);
+    EXPECT_EQ(noiseOfErrors(errors).worstPixels, 10u);
+}
+
+/// Ten of 225 pixels may well have most of the noise of a picture that has no fireflies.
+TEST(PictureNoise, ASmallPictureHasFewerWorstPixels) {
+    Film film(15, 15);
+    for (PixelStatistics& p : film.pixels)
+        p.add(glm::dvec3(1)), p.add(glm::dvec3(1));
+    std::vector<glm::dvec3> errors(film.pixels.size(), glm::dvec3(0.01));
+    errors[7] = errors[99] = errors[200] = glm::dvec3(0.5);
+    const PictureNoise noise = pictureNoise(film, errors);
+    EXPECT_EQ(noise.worstPixels, 2u);
+    EXPECT_NEAR(noise.ofWorst, 1 / (1.5 + 222 * 0.01), 1e-9);
 }
 
 /// By squared noise: a part of twice the noise and a third of the pixels weighs four thirds.
 TEST(PictureNoise, WorstPixelsOfPartsAreWeighted) {
     using Unknown = PictureNoise::Unknown;
-    const std::array parts = {PartNoise{{Unknown::No, 0.2, 0.1, 0.3, 0.6}, 100},
-                              PartNoise{{Unknown::No, 0.1, 0.1, 0.3, 0.1}, 300}};
+    const std::array parts = {PartNoise{{Unknown::No, 0.2, 0.1, 0.3, 0.6, 1}, 100},
+                              PartNoise{{Unknown::No, 0.1, 0.1, 0.3, 0.1, 3}, 300}};
     EXPECT_NEAR(togetherOf(parts).ofWorst, (0.6 * 4 + 0.1 * 3) / 7, 1e-12);
+    EXPECT_EQ(togetherOf(parts).worstPixels, 4u);
 }
 
 TEST(PictureNoise, OneSampleAPixelTellsNothing) {

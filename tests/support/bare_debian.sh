@@ -3,6 +3,8 @@
 #
 #   own_mounts "$@"          begins the script anew with mounts of its own, which end with it, however it ends: /dev is not
 #                            in the folder for those who delete it later. Fails where mounts are not allowed
+#   cannot WHY               ends the script with 77, the exit code of what was not tried
+#   need_bare "$@"           own_mounts, or cannot: no root, no mmdebstrap, no mounts
 #   make_bare SUITE FOLDER   makes it with mmdebstrap from STROMBOLI_MIRROR, unless it is there; fails where that fails
 #   enter_bare FOLDER        gives it what programs ask of a system that runs
 #
@@ -12,6 +14,17 @@ own_mounts() {
     [[ -z ${STROMBOLI_OWN_MOUNTS-} ]] || return 0
     unshare --mount true 2>/dev/null || return
     STROMBOLI_OWN_MOUNTS=1 exec unshare --mount "$0" "$@"
+}
+
+cannot() {
+    echo "NOT TRIED: $*" >&2
+    exit 77
+}
+
+need_bare() {
+    ((EUID == 0)) || cannot "root is needed, for chroot"
+    command -v mmdebstrap >/dev/null || cannot "mmdebstrap is not installed"
+    own_mounts "$@" || cannot "mounts are not allowed here"
 }
 
 make_bare() {
