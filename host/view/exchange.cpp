@@ -75,6 +75,7 @@ Reply Exchange::ask(Question question, double seconds) {
     const auto asked = std::make_shared<Asked>();
     asked->question = std::move(question);
     std::unique_lock lock(mutex_);
+    asked->steerings = steerings_;
     if (closed_ || asked_.size() >= kMostQuestions)
         return {503, "text/plain", "nobody can answer now", ""};
     asked_.push_back(asked);
@@ -88,6 +89,7 @@ Reply Exchange::ask(Question question, double seconds) {
 void Exchange::steer(const Steering& steering) {
     const std::lock_guard lock(mutex_);
     steering_.add(steering);
+    ++steerings_;
     forRenderer_.notify_all();
 }
 
@@ -128,6 +130,7 @@ bool Exchange::isAsked() const {
 
 Steering Exchange::takeSteering() {
     const std::lock_guard lock(mutex_);
+    steeringsTaken_ = steerings_;
     return std::exchange(steering_, {});
 }
 
@@ -136,7 +139,7 @@ void Exchange::answer(Answers& answers) {
         std::shared_ptr<Asked> next;
         {
             const std::lock_guard lock(mutex_);
-            if (asked_.empty()) return;
+            if (asked_.empty() || asked_.front()->steerings > steeringsTaken_) return;
             next = asked_.front();
             asked_.pop_front();
         }

@@ -123,7 +123,9 @@ class Exchange {
     bool isAsked() const;
     /// What has been asked for since the last call.
     Steering takeSteering();
-    /// Answers all questions that wait. What an answer throws becomes one that says so.
+    /// Answers the questions that wait, but for those that were asked after steering which has not
+    /// been taken yet: who steers and then asks is told of what was steered to. What an answer
+    /// throws becomes one that says so.
     void answer(Answers& answers);
     void publish(Shown shown, uint64_t number, std::shared_ptr<const std::string> frame);
     /// Frames that are there are of an earlier picture or of fewer samples.
@@ -145,6 +147,7 @@ class Exchange {
     };
     struct Asked {
         Question question;
+        uint64_t steerings = 0; ///< that came before it
         std::optional<Reply> reply;
     };
     bool hasWork() const; ///< the mutex is held
@@ -154,6 +157,7 @@ class Exchange {
     std::array<Slot, kNamedValues<Shown>.size()> slots_;
     std::deque<std::shared_ptr<Asked>> asked_;
     Steering steering_;
+    uint64_t steerings_ = 0, steeringsTaken_ = 0; ///< how many, since the beginning
     bool closed_ = false;
 };
 

@@ -195,8 +195,35 @@ TEST(ServedView, WritesTheCommandOfWhatIsSeen) {
     EXPECT_EQ(client.get("/command?exposure=nan").status, 400);
     EXPECT_EQ(client.get("/command?exposure=1;rm").status, 400);
     client.post("/steer?camera=0");
-    client.frame(0);
     EXPECT_EQ(client.get("/command").body, "-1 0 standard 0 false");
+}
+
+/// A question that comes after steering is answered when that has been done, however busy the
+/// renderer is, and does not wait for steering that comes after it.
+TEST(Exchange, AnswersAreOfWhatWasSteeredToBefore) {
+    struct Nothing : Answers {
+        Reply probe(uint32_t, uint32_t) override { return {}; }
+        Reply save(const SaveRequest&) override { return {}; }
+        Reply command(const ToneWords&, bool) override { return {200, "text/plain", "it", ""}; }
+    } answers;
+    Exchange exchange;
+    Steering pause;
+    pause.paused = true;
+    exchange.steer(pause);
+    Reply reply;
+    std::thread page(
+        [&] { reply = exchange.ask([](Answers& a) { return a.command({}, false); }, 60); });
+    while (!exchange.isAsked())
+        std::this_thread::yield();
+    exchange.answer(answers);
+    EXPECT_TRUE(exchange.isAsked());
+    EXPECT_TRUE(exchange.takeSteering().paused);
+    exchange.steer(pause);
+    exchange.answer(answers);
+    EXPECT_FALSE(exchange.isAsked());
+    exchange.close(); // so that the page ends, answered or not
+    page.join();
+    EXPECT_EQ(reply.body, "it");
 }
 
 TEST(ServedView, ThePageIsOneDocumentThatMayFetchNothingElsewhere) {
