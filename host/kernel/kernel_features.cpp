@@ -36,7 +36,6 @@ bool servesForLong(const KernelFeatures& f) {
            f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
 
-static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 
 /// Kinds of lights that light samples go to.

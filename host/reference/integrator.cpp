@@ -254,9 +254,7 @@ bool PathSample::survivesThroughput(uint32_t bounce) {
     goesOn_ = 1;
     if (settings_.roulette.mode != Roulette::Mode::Throughput) return true;
     if (bounce + uncounted_ < settings_.roulette.throughputStart) return true;
-    // A walk under a surface takes hundreds of scatterings that lose nothing.
-    const double most = isUnderSurface() ? 1 : Roulette::kMaxContinue;
-    const double q = std::min(most, Roulette::kBoldness * largest(throughput_));
+    const double q = std::min(1.0, Roulette::kBoldness * largest(throughput_));
     goesOn_ = q;
     throughput_ /= q;
     return random_.next() < q;

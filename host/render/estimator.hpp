@@ -168,11 +168,10 @@ struct Roulette {
     enum class Mode {
         None,
         Throughput, ///< after bounce throughputStart continue with probability
-                    ///< min(kMaxContinue, kBoldness * largest component of the throughput)
+                    ///< min(1, kBoldness * largest component of the throughput)
         Fixed,      ///< terminate with terminationProbability at every hit, before direct light
     };
     static constexpr uint32_t kThroughputStart = 3;
-    static constexpr double kMaxContinue = 0.95;
     /// A path is worth going on with as long as what it may still bring is not small beside the
     /// noise the pixel has anyway: the best probability is the throughput times sqrt(second moment
     /// of the light to come / its cost) / sqrt(variance of the pixel / cost of a sample) (Bolin and

@@ -178,10 +178,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
         return;
     }
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {
-        // A walk under a surface takes hundreds of scatterings that lose nothing.
-        float most = ROULETTE_MAX_CONTINUE;
-        if (WALKS && isUnderSurface(path.filling.medium)) most = 1.0;
-        const float q = min(most, ROULETTE_BOLDNESS * largest);
+        const float q = min(1.0, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
         path.throughput *= 1.0 / q;
     }

@@ -88,7 +88,7 @@ void recordArrivedLight(PathState path, vec3 light) {
 void recordBounce(inout PathState path, BsdfSample b, float number, float mixtureWeight) {
     PathEvent e = eventOf(EVENT_BOUNCE, path);
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START)
-        e.roulette = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largestComponent(path.throughput));
+        e.roulette = min(1.0, ROULETTE_BOLDNESS * largestComponent(path.throughput));
     e.name = b.lobe;
     e.place = path.surface.position;
     e.distance = number;

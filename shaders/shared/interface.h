@@ -83,7 +83,6 @@ SHARED_CONST uint LIGHT_CHOICE_EACH = 4u; ///< all of them in turn
 SHARED_CONST uint ROULETTE_NONE = 0u;
 SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;
 SHARED_CONST uint ROULETTE_FIXED = 2u;
-SHARED_CONST float ROULETTE_MAX_CONTINUE = 0.95f;
 SHARED_CONST float ROULETTE_BOLDNESS = 3.0f; // probability to go on, over throughput
 
 /// A stretch of a pixel filter along columns or rows, one of FILTER_CELLS that are met equally often.
