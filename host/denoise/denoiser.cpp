@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stromboli::denoise {
 namespace {
@@ -122,6 +123,29 @@ DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Devic
     return result;
 }
 
+/// Gives back the light that the picture as a whole has lost, or takes what it has gained: weights
+/// that look at radiance leave out neighbours that are bright by chance. A pixel has a part of it
+/// as its radiance and what is predicted of its error allow, so that what is black or without noise
+/// stays as it is.
+void keepLight(const NoisyPicture& picture, DenoisedPicture& denoised) {
+    double missing = 0, parts = 0;
+    const auto partsOf = [&](size_t pixel) {
+        constexpr double kNotZero = std::numeric_limits<double>::min();
+        const glm::dvec3 mean = glm::max(glm::dvec3(denoised.mean[pixel]), 0.0);
+        const glm::dvec3 error(denoised.error[pixel]);
+        return mean * error / glm::max(mean + error, kNotZero);
+    };
+    for (size_t i = 0; i < denoised.mean.size(); ++i) {
+        if (!std::isfinite(picture.mean[i].x)) continue; // NoisyPicture::unknownPixels
+        missing += sumOf(glm::dvec3(picture.mean[i])) - sumOf(glm::dvec3(denoised.mean[i]));
+        parts += sumOf(partsOf(i));
+    }
+    if (!(parts > 0)) return;
+    const double share = std::max(missing / parts, -1.0);
+    for (size_t i = 0; i < denoised.mean.size(); ++i)
+        if (std::isfinite(picture.mean[i].x)) denoised.mean[i] += glm::vec3(share * partsOf(i));
+}
+
 DenoisedPicture denoiseByOidn(const NoisyPicture& picture) {
     const OidnHalves halves = runOidn(picture);
     DenoisedPicture result = blendHalves(picture, halves.first, halves.second);
@@ -138,8 +162,11 @@ void requireUsable(Denoiser which) {
 DenoisedPicture denoisePicture(const NoisyPicture& picture, Denoiser which,
                                const vulkan::Device* device,
                                const std::function<bool()>& isUnwanted) {
-    return which == Denoiser::Oidn ? denoiseByOidn(picture)
+    DenoisedPicture denoised = which == Denoiser::Oidn
+                                   ? denoiseByOidn(picture)
                                    : denoiseByFilter(picture, device, isUnwanted);
+    keepLight(picture, denoised);
+    return denoised;
 }
 
 const std::vector<std::string>& channelNames() {

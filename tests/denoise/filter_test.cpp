@@ -184,6 +184,27 @@ TEST(DenoiseFilter, APixelThatItsSamplesAgreeOnIsNotLitByItsNeighbours) {
     EXPECT_NEAR(d.mean[20 * kWidth + 30].y, 0.01, 8 * 0.001);
 }
 
+/// Light that is met by a few samples is lost by weights that look at radiance; what is without
+/// noise or black has no part in what is given back.
+TEST(DenoiseFilter, ThePictureKeepsItsLight) {
+    for (const uint32_t seed : {1u, 2u, 3u}) {
+        const TruthOf truth = [&](uint32_t x, uint32_t y) {
+            Truth t;
+            if (x < 24) t.radiance = glm::vec3(x < 12 ? 0.0f : 2.0f), t.depth = 40;
+            if (x >= 24) t.sigma = 0.5f;
+            if (x >= 24 && (x * 7919 + y * 104729 + seed * 31) * 2654435761u >> 27 == 0)
+                t.radiance = glm::vec3(6), t.sigma = 1;
+            return t;
+        };
+        const NoisyPicture noisy = noisyPicture(kWidth, kHeight, truth, seed);
+        const DenoisedPicture d = denoise::denoisePicture(noisy, Denoiser::On, nullptr);
+        EXPECT_NEAR(sumOf(d.mean), sumOf(noisy.mean), 1e-5 * sumOf(noisy.mean)) << seed;
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < 18; ++x) // windows of those beside the noise look into it
+                EXPECT_NEAR(d.mean[y * kWidth + x].y, x < 12 ? 0 : 2, 2e-5) << x << ' ' << y;
+    }
+}
+
 /// A pixel whose samples have all missed the light that its neighbours have met now and then does
 /// not stay black; where the neighbours are sure of theirs, black is what it is.
 TEST(DenoiseFilter, APixelThatHasMetNoLightIsLitAsFarAsItsNeighboursAreUnsure) {
