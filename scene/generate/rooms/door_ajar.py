@@ -3,8 +3,8 @@ ajar, from the lamps of a corridor."""
 
 import math
 
-from forms import (box, curve, cushion, frame, grid, joined, lathe, panel, pipe, placed, quad, turned_ring, wall)
-from materials import brass, diffuse, glass, glazed, metal, panel_lamp, principled, varnished
+from forms import box, curve, cushion, frame, grid, lathe, panel, pipe, placed, quad, wall
+from materials import brass, diffuse, glass, metal, panel_lamp, principled, varnished
 from room import Room
 from shapes import arc
 from surfaces import floor_boards, landscape, stone, tile_relief, wallpaper
@@ -18,9 +18,11 @@ def materials(room):
     room.material("paper", diffuse(room.picture("paper", wallpaper((0.86, 0.82, 0.70), (0.60, 0.66, 0.55)))))
     room.material("wainscot", varnished((0.70, 0.68, 0.62), 0.25))
     room.material("ceiling", diffuse((0.80, 0.79, 0.76)))
-    room.material("floor", varnished(room.picture("floor", floor_boards((0.66, 0.47, 0.30), (0.43, 0.27, 0.16), 31)), 0.15))
+    room.material("floor",
+                  varnished(room.picture("floor", floor_boards((0.66, 0.47, 0.30), (0.43, 0.27, 0.16), 31)), 0.15))
     room.material("door", varnished((0.50, 0.47, 0.40), 0.2))
-    room.material("oak", varnished(room.picture("table", floor_boards((0.60, 0.41, 0.26), (0.40, 0.25, 0.15), 47, 256, 2)), 0.1))
+    room.material(
+        "oak", varnished(room.picture("table", floor_boards((0.60, 0.41, 0.26), (0.40, 0.25, 0.15), 47, 256, 2)), 0.1))
     room.material("brass", brass(0.12))
     room.material("iron", metal("Cr", 0.2))
     room.material("earthenware", diffuse((0.55, 0.30, 0.18)))
@@ -115,13 +117,19 @@ def pot(room, name, place, turn, tall, hollow=False):
     lid = [(0, top - 0.001)] + lid + arc((0, top + 0.037), 0.0115, -50, 90, 10)
     room.add(name, placed(lathe(lid, 36, False), place, turn, size=1.4))
     middle = 0.010 + tall * 0.5
-    handle = [(-0.086, middle + 0.036, 0), (-0.135, middle + 0.046, 0), (-0.150, middle + 0.012, 0), (-0.132, middle - 0.022, 0),
-              (-0.092, middle - 0.026, 0)]
-    spout = [(0.088, middle - 0.018, 0), (0.128, middle - 0.004, 0), (0.146, middle + 0.03, 0), (0.176, middle + 0.058, 0)]
+    handle = [(-0.086, middle + 0.036, 0), (-0.135, middle + 0.046, 0), (-0.150, middle + 0.012, 0),
+              (-0.132, middle - 0.022, 0), (-0.092, middle - 0.026, 0)]
+    spout = [(0.088, middle - 0.018, 0), (0.128, middle - 0.004, 0), (0.146, middle + 0.03, 0),
+             (0.176, middle + 0.058, 0)]
     if not hollow:
         room.add(name, placed(pipe(curve(handle, 8), 0.0075, 16), place, turn, size=1.4))
         line = curve(spout, 8)
-        room.add(name, placed(pipe(line, [0.024 - 0.014 * (k / (len(line) - 1)) ** 0.7 for k in range(len(line))], 20), place, turn, size=1.4))
+        room.add(
+            name,
+            placed(pipe(line, [0.024 - 0.014 * (k / (len(line) - 1))**0.7 for k in range(len(line))], 20),
+                   place,
+                   turn,
+                   size=1.4))
     else:
         line = curve([(-0.108, middle + 0.036, 0), *handle[1:4], (-0.112, middle - 0.030, 0)], 8)
         room.add(name, placed(pipe(line, 0.0065, 16), place, turn, size=1.4))
@@ -129,9 +137,15 @@ def pot(room, name, place, turn, tall, hollow=False):
 
 def table(room, x, z):
     width, depth, top = 1.5, 0.8, 0.74
-    room.add("oak", placed(box((-width / 2, -0.03, -depth / 2), (width / 2, 0, depth / 2), (1.4, 1)), (x, top, z)), flat=True)
-    room.add("oak", placed(box((-width / 2 + 0.08, -0.11, -depth / 2 + 0.07), (width / 2 - 0.08, -0.03, depth / 2 - 0.07)), (x, top, z)), flat=True)
-    leg = [(0.018, 0), (0.026, 0.03), (0.016, 0.06), (0.030, 0.30), (0.022, 0.46), (0.034, 0.50), (0.024, 0.54), (0.034, 0.58), (0.034, 0.63)]
+    room.add("oak",
+             placed(box((-width / 2, -0.03, -depth / 2), (width / 2, 0, depth / 2), (1.4, 1)), (x, top, z)),
+             flat=True)
+    room.add("oak",
+             placed(box((-width / 2 + 0.08, -0.11, -depth / 2 + 0.07), (width / 2 - 0.08, -0.03, depth / 2 - 0.07)),
+                    (x, top, z)),
+             flat=True)
+    leg = [(0.018, 0), (0.026, 0.03), (0.016, 0.06), (0.030, 0.30), (0.022, 0.46), (0.034, 0.50), (0.024, 0.54),
+           (0.034, 0.58), (0.034, 0.63)]
     for a in (-1, 1):
         for b in (-1, 1):
             room.add("oak", placed(lathe(leg, 24), (x + a * (width / 2 - 0.11), 0, z + b * (depth / 2 - 0.10))))
@@ -145,23 +159,29 @@ def table(room, x, z):
         flat = depth / 2 + 0.002
         out = min(abs(s), flat)
         drop = max(0.0, abs(s) - flat)
-        return (x + 0.46 * (0.5 - u) + 0.32, top + 0.0015 + wave - drop, z + math.copysign(out + (0.004 + wave if drop else 0), s))
+        return (x + 0.46 * (0.5 - u) + 0.32, top + 0.0015 + wave - drop,
+                z + math.copysign(out + (0.004 + wave if drop else 0), s))
 
     room.add("cloth", grid(20, 40, runner))
-    dish = [(0, 0.004), (0.05, 0.004), (0.052, 0), (0.055, 0.004), (0.10, 0.030), (0.102, 0.033), (0.099, 0.033), (0.052, 0.009), (0, 0.009)]
+    dish = [(0, 0.004), (0.05, 0.004), (0.052, 0), (0.055, 0.004), (0.10, 0.030), (0.102, 0.033), (0.099, 0.033),
+            (0.052, 0.009), (0, 0.009)]
     at = (x + 0.12, top, z + 0.24)
     room.add("brass", placed(lathe(dish, 48), at))
-    apple = [(0, 0.008)] + [(0.036 * math.sin(math.radians(a)) ** 0.85, 0.032 - 0.031 * math.cos(math.radians(a))) for a in range(16, 165, 12)] + [(0.006, 0.056), (0, 0.052)]
+    apple = [(0, 0.008)] + [(0.036 * math.sin(math.radians(a))**0.85, 0.032 - 0.031 * math.cos(math.radians(a)))
+                            for a in range(16, 165, 12)] + [(0.006, 0.056), (0, 0.052)]
     for dx, dz, turn in ((-0.035, 0.01, 0), (0.038, 0.018, 40), (0.004, -0.04, 80)):
         room.add("fruit", placed(lathe(apple, 28), (at[0] + dx, at[1] + 0.007, at[2] + dz), turn))
-        room.add("iron", pipe([(at[0] + dx, at[1] + 0.058, at[2] + dz), (at[0] + dx + 0.005, at[1] + 0.078, at[2] + dz)], 0.0015, 6))
+        room.add(
+            "iron",
+            pipe([(at[0] + dx, at[1] + 0.058, at[2] + dz), (at[0] + dx + 0.005, at[1] + 0.078, at[2] + dz)], 0.0015, 6))
 
 
 def chair(room, move, turn):
     parts = []
     for x in (-0.19, 0.19):
         parts.append(pipe([(x, 0, 0.19), (x, 0.44, 0.19)], [0.014, 0.02], 12))
-        parts.append(pipe(curve([(x, 0, -0.22), (x, 0.44, -0.18), (x, 0.75, -0.20), (x * 0.95, 0.98, -0.26)], 6), 0.017, 12))
+        parts.append(
+            pipe(curve([(x, 0, -0.22), (x, 0.44, -0.18), (x, 0.75, -0.20), (x * 0.95, 0.98, -0.26)], 6), 0.017, 12))
         parts.append(pipe([(x, 0.2, 0.19), (x, 0.2, -0.2)], 0.009, 8))
     for y, z in ((0.62, -0.19), (0.78, -0.205), (0.94, -0.245)):
         parts.append(placed(cushion((0.38, 0.075, 0.018), 0.008, 2, 2), (0, y, z), tilt=-8))
@@ -172,7 +192,8 @@ def chair(room, move, turn):
 
 
 def door_ajar():
-    room = Room("door_ajar", "A dark room, three vessels on a table: all light comes from a corridor, by a door that is ajar.")
+    room = Room("door_ajar",
+                "A dark room, three vessels on a table: all light comes from a corridor, by a door that is ajar.")
     room.camera((0.85, 1.32, 2.1), (-0.12, 0.86, -0.8), 58)
     materials(room)
     shell(room)

@@ -134,7 +134,8 @@ def pipe(points, radius, sides=10, caps=True):
         for i in range(sides):
             a = k * row + i
             mesh.triangles += [(a, a + row + 1, a + 1), (a, a + row, a + row + 1)]
-    for end, towards in ((0, sub(points[0], points[1])), (len(points) - 1, sub(points[-1], points[-2]))) if caps else ():
+    ends = ((0, sub(points[0], points[1])), (len(points) - 1, sub(points[-1], points[-2])))
+    for end, towards in ends if caps else ():
         first = len(mesh.positions)
         mesh.positions += mesh.positions[end * row : end * row + sides]
         mesh.normals += [unit(towards)] * sides
@@ -193,9 +194,10 @@ def frame(low, high, width, thickness):
 
 def turned_ring(center_radius, radius, sides=24, around=40):
     """A ring about y."""
-    return grid(around, sides, lambda u, v: (
-        (center_radius + radius * math.cos(2 * math.pi * v)) * math.sin(2 * math.pi * u), radius * math.sin(2 * math.pi * v),
-        (center_radius + radius * math.cos(2 * math.pi * v)) * math.cos(2 * math.pi * u)))
+    return grid(
+        around, sides, lambda u, v: ((center_radius + radius * math.cos(2 * math.pi * v)) * math.sin(
+            2 * math.pi * u), radius * math.sin(2 * math.pi * v),
+                                     (center_radius + radius * math.cos(2 * math.pi * v)) * math.cos(2 * math.pi * u)))
 
 
 __all__ = ["Mesh", "box", "cross", "cushion", "curtain", "curve", "frame", "grid", "joined", "lathe", "leaf_blade",

@@ -59,7 +59,8 @@ def metal(name, alpha=0.0):
 
 def brass(alpha):
     """Yellow brass, by its index for red, green and blue."""
-    return both_sides(bsdf("roughconductor", rgb("eta", (0.45, 0.55, 1.1)), rgb("k", (3.7, 2.9, 1.95)), number("alpha", alpha)))
+    return both_sides(
+        bsdf("roughconductor", rgb("eta", (0.45, 0.55, 1.1)), rgb("k", (3.7, 2.9, 1.95)), number("alpha", alpha)))
 
 
 def mirror():
@@ -89,6 +90,15 @@ def ball_lamp(center, radius, radiance):
 def sky(file, turn, scale):
     return (f'<emitter type="envmap"><string name="filename" value="{file}"/>{number("scale", scale)}'
             f'<transform name="to_world"><rotate y="1" angle="{turn:g}"/></transform></emitter>')
+
+
+def sun_and_sky(direction, scale):
+    """Hosek and Wilkie's, for a sun in this direction; the model's own z is up."""
+    x, y, z = direction
+    return (f'<emitter type="sunsky">{number("turbidity", 3)}'
+            f'<vector name="sun_direction" x="{x:g}" y="{y:g}" z="{z:g}"/>{number("sun_scale", scale)}'
+            f'{number("sky_scale", scale)}'
+            '<transform name="to_world"><rotate x="1" angle="-90"/></transform></emitter>')
 
 
 def panel_lamp(center, half, turn_x, radiance):

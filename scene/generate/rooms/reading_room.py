@@ -4,7 +4,7 @@ windows with glazing bars and between the slats of a blind."""
 import math
 import random
 
-from forms import (box, cushion, curtain, frame, grid, joined, lathe, leaf_blade, panel, pipe, placed, quad, wall)
+from forms import (box, cushion, curtain, frame, grid, lathe, leaf_blade, panel, pipe, placed, quad, wall)
 from materials import (ball_lamp, brass, diffuse, glazed, principled, sky, translucent, varnished)
 from room import Room
 from shapes import Mesh, arc
@@ -19,7 +19,8 @@ DEPTH = 0.22
 def materials(room):
     room.material("walls", diffuse((0.78, 0.73, 0.62)))
     room.material("white", diffuse((0.82, 0.80, 0.76)))
-    room.material("floor", varnished(room.picture("floor", floor_boards((0.72, 0.52, 0.33), (0.48, 0.30, 0.17), 11)), 0.12))
+    room.material("floor",
+                  varnished(room.picture("floor", floor_boards((0.72, 0.52, 0.33), (0.48, 0.30, 0.17), 11)), 0.12))
     room.material("oak", varnished((0.16, 0.085, 0.04), 0.2))
     room.material("paint", glazed((0.78, 0.76, 0.71)))
     room.material("rug", principled(room.picture("rug", rug()), roughness=0.95, specular=0.1, sheen=0.6))
@@ -51,8 +52,8 @@ def shell(room):
     room.add("white", quad((LEFT, HEIGHT, BACK), (width, 0, 0), (0, 0, length)), flat=True)
     room.add("floor", panel((LEFT, 0, FRONT), (width, 0, 0), (0, 0, -length), 0.62), flat=True)
     # A skirting board, a cornice of three steps.
-    for k, (y0, y1, out) in enumerate(((0, 0.12, 0.02), (HEIGHT - 0.05, HEIGHT, 0.14), (HEIGHT - 0.10, HEIGHT - 0.05, 0.09),
-                                       (HEIGHT - 0.14, HEIGHT - 0.10, 0.04))):
+    for k, (y0, y1, out) in enumerate(((0, 0.12, 0.02), (HEIGHT - 0.05, HEIGHT, 0.14),
+                                       (HEIGHT - 0.10, HEIGHT - 0.05, 0.09), (HEIGHT - 0.14, HEIGHT - 0.10, 0.04))):
         name = "paint" if k == 0 else "white"
         room.add(name, box((LEFT, y0, BACK), (RIGHT, y1, BACK + out)), flat=True)
         room.add(name, box((LEFT, y0, BACK), (LEFT + out, y1, FRONT)), flat=True)
@@ -74,8 +75,10 @@ def window(room, hole, blind):
     if blind:
         slats = Mesh()
         for k in range(30):
-            slats.append(placed(grid(4, 2, lambda u, v: (0.05 * (0.5 - v), 0.012 * v * (1 - v), (0.5 - u) * (width - 0.03))),
-                                (LEFT - 0.03, y1 - 0.06 - 0.038 * k, (z0 + z1) / 2), roll=-24))
+            slats.append(
+                placed(grid(4, 2, lambda u, v: (0.05 * (0.5 - v), 0.012 * v * (1 - v), (0.5 - u) * (width - 0.03))),
+                       (LEFT - 0.03, y1 - 0.06 - 0.038 * k, (z0 + z1) / 2),
+                       roll=-24))
         room.add("blind", slats)
         room.add("blind", box((LEFT - 0.06, y1 - 0.04, z0 + 0.01), (LEFT - 0.005, y1 - 0.001, z1 - 0.01)), flat=True)
         for z in (z0 + 0.25, z1 - 0.25):
@@ -102,11 +105,12 @@ def book(width, height, depth, column):
     cover.append(quad((0, 0, 0), (width, 0, 0), (0, height, 0), ((u0, 1), (u1, 1), (u1, 0), (u0, 0))))
     plain = ((left, 0.97), (right, 0.97), (right, 0.9), (left, 0.9))
     t = 0.003
-    for corner, edge_u, edge_v in (((0, 0, back), (0, 0, depth), (0, top, 0)), ((width, 0, 0), (0, 0, back), (0, top, 0)),
-                                   ((0, top, 0), (t, 0, 0), (0, 0, back)), ((width - t, top, 0), (t, 0, 0), (0, 0, back)),
-                                   ((t, top, 0), (width - 2 * t, 0, 0), (0, 0, -t)),
-                                   ((t, top - 0.006, -t), (0, 0, back + t), (0, 0.006, 0)),
-                                   ((width - t, top - 0.006, back), (0, 0, -back - t), (0, 0.006, 0))):
+    for corner, edge_u, edge_v in (((0, 0, back), (0, 0, depth), (0, top, 0)),
+                                   ((width, 0, 0), (0, 0, back), (0, top, 0)), ((0, top, 0), (t, 0, 0), (0, 0, back)),
+                                   ((width - t, top, 0), (t, 0, 0), (0, 0, back)), ((t, top, 0), (width - 2 * t, 0, 0),
+                                                                                    (0, 0, -t)),
+                                   ((t, top - 0.006, -t), (0, 0, back + t),
+                                    (0, 0.006, 0)), ((width - t, top - 0.006, back), (0, 0, -back - t), (0, 0.006, 0))):
         cover.append(quad(corner, edge_u, edge_v, plain))
     pages = quad((t, top - 0.005, -t), (width - 2 * t, 0, 0), (0, 0, back + 2 * t))
     return cover, pages
@@ -114,7 +118,7 @@ def book(width, height, depth, column):
 
 def bookcase(room, x0, columns, dice):
     """Against the back wall, with a cornice; each board carries books, some of them lying or leaning."""
-    width, depth, height, front = 0.86, 0.30, 2.36, BACK + 0.32
+    width, height, front = 0.86, 2.36, BACK + 0.32
     x1 = x0 + columns * width
     room.add("oak", box((x0 - 0.06, height, BACK + 0.02), (x1 + 0.06, height + 0.05, front + 0.05)), flat=True)
     room.add("oak", box((x0 - 0.03, height - 0.05, BACK + 0.02), (x1 + 0.03, height, front + 0.02)), flat=True)
@@ -134,7 +138,7 @@ def bookcase(room, x0, columns, dice):
 def shelf(room, left, right, y, room_above, front, dice):
     x = left + 0.003
     end = right - dice.choice((0.0, 0.0, 0.02, 0.16, 0.28))
-    series, lie = 0, []
+    series = 0
     while True:
         if series == 0:
             series = dice.choice((1, 1, 1, 2, 3, 6))
@@ -152,13 +156,15 @@ def shelf(room, left, right, y, room_above, front, dice):
         level = y
         for _ in range(dice.randrange(2, 5)):
             width, height, depth = dice.uniform(0.02, 0.04), dice.uniform(0.17, 0.195), 0.15
-            cover, pages = book(width, height, depth, dice.randrange(SPINES))
+            cover, _ = book(width, height, depth, dice.randrange(SPINES))
             move = (x + 0.004 + height, level + 0.0005, front - dice.uniform(0, 0.02))
             room.add("spines", placed(cover, move, roll=90), flat=True)
             level += width + 0.0008
     elif right - x > 0.06:
-        room.add("clay", placed(lathe([(0, 0), (0.022, 0), (0.03, 0.02), (0.026, 0.07), (0.012, 0.10), (0.016, 0.12)], 20),
-                                ((x + right) / 2, y, front - 0.06)))
+        room.add(
+            "clay",
+            placed(lathe([(0, 0), (0.022, 0), (0.03, 0.02), (0.026, 0.07), (0.012, 0.10), (0.016, 0.12)], 20),
+                   ((x + right) / 2, y, front - 0.06)))
 
 
 def sofa(room, move, turn):
@@ -213,20 +219,27 @@ def table(room, x, z):
     room.add("oak", placed(top, (x, 0.42, z)))
     for a in (-1, 1):
         for b in (-1, 1):
-            room.add("oak", pipe([(x + a * 0.26, 0, z + b * 0.46), (x + a * 0.23, 0.41, z + b * 0.42)], [0.014, 0.022], 12))
-    cup = [(0, 0.004), (0.02, 0.004), (0.022, 0), (0.024, 0.006), (0.036, 0.03), (0.040, 0.062), (0.042, 0.064), (0.0405, 0.066),
-           (0.038, 0.06), (0.034, 0.03), (0.02, 0.010), (0, 0.008)]
+            room.add("oak",
+                     pipe([(x + a * 0.26, 0, z + b * 0.46), (x + a * 0.23, 0.41, z + b * 0.42)], [0.014, 0.022], 12))
+    cup = [(0, 0.004), (0.02, 0.004), (0.022, 0), (0.024, 0.006), (0.036, 0.03), (0.040, 0.062), (0.042, 0.064),
+           (0.0405, 0.066), (0.038, 0.06), (0.034, 0.03), (0.02, 0.010), (0, 0.008)]
     saucer = [(0, 0.002), (0.035, 0.002), (0.07, 0.012), (0.072, 0.014), (0.07, 0.015), (0.036, 0.006), (0, 0.006)]
     at = (x + 0.1, 0.4385, z + 0.22)
     room.add("cup", placed(lathe(saucer, 32), at)).add("cup", placed(lathe(cup, 32), (at[0], at[1] + 0.006, at[2])))
     room.add("tea", placed(lathe([(0.0385, 0.05), (0, 0.05)], 24), (at[0], at[1] + 0.006, at[2])))
-    room.add("cup", placed(pipe([(0.036 + 0.022 * math.sin(math.pi * k / 10), 0.02 + 0.034 * k / 10, 0) for k in range(11)],
-                                0.004, 8), (at[0], at[1] + 0.006, at[2]), turn=50))
+    room.add(
+        "cup",
+        placed(pipe([(0.036 + 0.022 * math.sin(math.pi * k / 10), 0.02 + 0.034 * k / 10, 0) for k in range(11)], 0.004,
+                    8), (at[0], at[1] + 0.006, at[2]),
+               turn=50))
     level = 0.4385
     for k, (turn, column) in enumerate(((12, 3), (-8, 7), (21, 1))):
         cover, _ = book(0.028, 0.23 - 0.02 * k, 0.165 - 0.01 * k, column)
         room.add("spines", placed(placed(cover, roll=90), (x + 0.06, level, z - 0.2), turn), flat=True)
-        room.add("pages", placed(box((-0.2 + 0.02 * k, 0.003, -0.15), (-0.005, 0.025, -0.004)), (x + 0.06, level, z - 0.2), turn), flat=True)
+        room.add("pages",
+                 placed(box((-0.2 + 0.02 * k, 0.003, -0.15), (-0.005, 0.025, -0.004)), (x + 0.06, level, z - 0.2),
+                        turn),
+                 flat=True)
         level += 0.0285
 
 
@@ -252,13 +265,19 @@ def plant(room, x, z, dice):
 def pictures(room):
     for name, z, y, width in (("picture_a", -0.9, 1.35, 0.78), ("picture_b", 0.55, 1.42, 0.6)):
         height = width * 0.75
-        room.add(name, placed(quad((0, 0, 0.012), (width, 0, 0), (0, height, 0)), (RIGHT, y, z - width / 2), turn=-90), flat=True)
-        room.add("brass", placed(frame((-0.04, -0.04), (width + 0.04, height + 0.04), 0.045, 0.03), (RIGHT, y, z - width / 2), turn=-90), flat=True)
+        room.add(name,
+                 placed(quad((0, 0, 0.012), (width, 0, 0), (0, height, 0)), (RIGHT, y, z - width / 2), turn=-90),
+                 flat=True)
+        room.add("brass",
+                 placed(frame((-0.04, -0.04), (width + 0.04, height + 0.04), 0.045, 0.03), (RIGHT, y, z - width / 2),
+                        turn=-90),
+                 flat=True)
 
 
 def reading_room():
     dice = random.Random(2024)
-    room = Room("reading_room", "A reading room in the evening sun: shelves of books, a sofa, a rug, windows with bars, a lamp.")
+    room = Room("reading_room",
+                "A reading room in the evening sun: shelves of books, a sofa, a rug, windows with bars, a lamp.")
     room.camera((1.75, 1.32, 2.4), (-0.38, 0.98, -0.9), 66)
     materials(room)
     shell(room)
@@ -266,8 +285,11 @@ def reading_room():
         window(room, hole, blind=k == 1)
     drapery(room)
     bookcase(room, -1.62, 4, dice)
-    room.add("rug", grid(40, 28, lambda u, v: (-1.35 + 2.55 * u, 0.006 + 0.003 * math.sin(11 * u + 3 * v) * math.sin(7 * v),
-                                               1.05 - 1.75 * v)))
+    room.add(
+        "rug",
+        grid(
+            40, 28, lambda u, v:
+            (-1.35 + 2.55 * u, 0.006 + 0.003 * math.sin(11 * u + 3 * v) * math.sin(7 * v), 1.05 - 1.75 * v)))
     sofa(room, (0.15, 0, -1.28), 0)
     table(room, -0.35, 0.2)
     floor_lamp(room, 1.5, -1.3)

@@ -54,7 +54,9 @@ def floor_boards(light, dark, seed, size=384, rows=6):
         along = (u + ends[row]) % 1
         board = int(2 * along)
         across = v * rows % 1
-        seam = max(1 - smooth(0.0, 0.04, min(across, 1 - across)), 1 - smooth(0.0, 0.006, min(2 * along % 1, 1 - 2 * along % 1) / 2))
+        seam = max(1 - smooth(0.0, 0.04, min(across, 1 - across)),
+                   1 - smooth(0.0, 0.006,
+                              min(2 * along % 1, 1 - 2 * along % 1) / 2))
         bend = grain(u + 0.31 * board, v + slips[row] * 3)
         rings = 0.5 + 0.5 * math.sin(14 * bend + 9 * across + 5 * board + 7 * row)
         color = mix(light, dark, 0.45 * rings * bend + 0.35 * fibres(u, v) + 0.32 * shades[row][board])
@@ -83,7 +85,8 @@ def rug(size=320):
         if middle < 0.33:
             ring = int(middle * 30)
             petal = 0.5 + 0.5 * math.cos(8 * math.atan2(y, x))
-            return (gold, red, cream, blue, gold, blue, blue, cream, red, gold)[ring % 10] if middle + 0.05 * petal < 0.31 else gold
+            return (gold, red, cream, blue, gold, blue, blue, cream, red,
+                    gold)[ring % 10] if middle + 0.05 * petal < 0.31 else gold
         a, b = (18 * u) % 1 - 0.5, (12 * v) % 1 - 0.5
         flower = abs(a) + abs(b)
         return cream if flower < 0.13 else gold if flower < 0.24 and abs(abs(a) - abs(b)) < 0.1 else red
@@ -154,7 +157,8 @@ def wallpaper(ground, figure, size=192):
         x = (2 * u) % 1
         y = (3 * v + 0.5 * int(2 * u)) % 1
         a = abs(x - 0.5)
-        leaf = a < 0.2 * math.sin(math.pi * min(1.0, y * 1.35)) ** 1.3 * (0.75 + 0.25 * math.cos(38 * y)) and y < 0.74 and a > 0.012
+        leaf = a < 0.2 * math.sin(
+            math.pi * min(1.0, y * 1.35))**1.3 * (0.75 + 0.25 * math.cos(38 * y)) and y < 0.74 and a > 0.012
         line = abs(a - 0.42) < 0.012 or abs(a - 0.46) < 0.006
         color = figure if leaf or line else ground
         return tuple(c * (0.92 + 0.12 * paper(u, v)) for c in color)
@@ -193,16 +197,6 @@ def tile_relief(count, width, seed, size=256):
         lean = leans[k]
         tilt = lean[0] * (u * count % 1 - 0.5) + lean[1] * (v * count % 1 - 0.5)
         return (0.0011 * tilt + 0.0009 * waves(u, v)) * (1 - gap) - 0.006 * gap
-
-    return relief(size, height, 1.0)
-
-
-def woven(size=64):
-    """The relief of a coarse cloth."""
-    def height(u, v):
-        a, b = int(u * 8), int(v * 8)
-        along = (u * 8 % 1) if (a + b) % 2 else (v * 8 % 1)
-        return 0.02 * math.sin(math.pi * along)
 
     return relief(size, height, 1.0)
 
