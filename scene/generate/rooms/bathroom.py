@@ -52,10 +52,10 @@ def materials(room):
     for name, color in (("green_glass", (0.45, 0.85, 0.62)), ("amber_glass", (0.95, 0.62, 0.22)), ("blue_glass",
                                                                                                    (0.45, 0.66, 0.95))):
         room.material(name, tinted(color))
-    room.material("towel", principled((0.70, 0.36, 0.24), roughness=0.95, specular=0.1, sheen=0.8))
-    room.material("linen", principled((0.80, 0.77, 0.70), roughness=0.95, specular=0.1, sheen=0.6))
+    room.material("towel", diffuse((0.70, 0.36, 0.24)))
+    room.material("linen", diffuse((0.80, 0.77, 0.70)))
     room.material("soap", principled((0.82, 0.73, 0.55), roughness=0.4))
-    room.material("leaves", principled((0.06, 0.20, 0.06), roughness=0.35, specular=0.6))
+    room.material("leaves", varnished((0.06, 0.20, 0.06), 0.15))
     room.material("soil", diffuse((0.05, 0.035, 0.025)))
     room.material("picture", varnished(room.picture("picture", landscape(83)), 0.3))
 

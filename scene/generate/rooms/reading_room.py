@@ -29,13 +29,14 @@ def materials(room):
     room.material("sofa", principled((0.10, 0.22, 0.21), roughness=0.85, specular=0.2, sheen=1.0, sheen_tint=0.6))
     room.material("pillow", principled((0.62, 0.30, 0.09), roughness=0.9, specular=0.2, sheen=0.7))
     room.material("plaid", principled((0.60, 0.55, 0.47), roughness=0.95, specular=0.1, sheen=0.5))
+    room.material("throw", diffuse((0.60, 0.55, 0.47)))
     room.material("curtains", translucent((0.62, 0.50, 0.36), 0.35))
     room.material("shade", translucent((0.80, 0.66, 0.45), 0.5))
-    room.material("blind", principled((0.70, 0.62, 0.48), roughness=0.4))
+    room.material("blind", varnished((0.70, 0.62, 0.48), 0.2))
     room.material("brass", brass(0.15))
     room.material("clay", varnished((0.45, 0.19, 0.10), 0.3))
     room.material("soil", diffuse((0.05, 0.035, 0.025)))
-    room.material("leaves", principled((0.05, 0.16, 0.045), roughness=0.35, specular=0.6))
+    room.material("leaves", varnished((0.05, 0.16, 0.045), 0.15))
     room.material("bark", diffuse((0.13, 0.09, 0.06)))
     room.material("cup", glazed((0.75, 0.74, 0.70)))
     room.material("tea", glazed((0.12, 0.04, 0.01)))
@@ -182,7 +183,7 @@ def sofa(room, move, turn):
     put("pillow", placed(cushion((0.44, 0.09, 0.44), 0.04, puff=0.09), tilt=66, turn=12), (-0.62, 0.68, 0.02))
     put("plaid", placed(cushion((0.40, 0.08, 0.40), 0.035, puff=0.08), tilt=62, turn=-14), (0.60, 0.66, 0.05))
 
-    put("plaid", grid(24, 30, drape), (0, 0, 0))
+    put("throw", grid(24, 30, drape), (0, 0, 0))
 
 
 def drape(u, v):
