@@ -3,7 +3,7 @@
 # the program finds its scenes from where it is (scene/find_scene.cpp).
 install(TARGETS stromboli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY scene/library/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stromboli/scenes
-        FILES_MATCHING PATTERN *.dae PATTERN *.glb PATTERN *.xml PATTERN *.hdr)
+        FILES_MATCHING PATTERN *.dae PATTERN *.glb PATTERN *.xml PATTERN *.hdr PATTERN *.ply PATTERN *.png)
 install(FILES ${STROMBOLI_MANUAL}/stromboli.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${STROMBOLI_MANUAL}/stromboli.bash
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME stromboli)

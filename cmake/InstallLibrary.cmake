@@ -45,7 +45,7 @@ install(FILES include/stromboli/stromboli.h DESTINATION ${CMAKE_INSTALL_INCLUDED
 install(TARGETS stromboli_shared LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${rules}
         NAMELINK_COMPONENT library)
 install(DIRECTORY scene/library/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stromboli/scenes ${rules}
-        FILES_MATCHING PATTERN *.dae PATTERN *.glb PATTERN *.xml PATTERN *.hdr)
+        FILES_MATCHING PATTERN *.dae PATTERN *.glb PATTERN *.xml PATTERN *.hdr PATTERN *.ply PATTERN *.png)
 install(FILES ${STROMBOLI_STATIC_LIBRARY} DESTINATION ${CMAKE_INSTALL_LIBDIR} ${rules})
 
 # What a program that links statically needs beside it.

@@ -34,8 +34,7 @@ std::set<Part> allParts();
 
 /// What to measure and how long.
 struct BenchSettings {
-    std::vector<std::string> scenes = {"cornell_boxes", "cornell_mesh",
-                                       "generate:cornell_mesh:1000000"};
+    std::vector<std::string> scenes = {"reading_room", "door_ajar", "bathroom", "atrium"};
     std::set<Part> parts = allParts();
     std::vector<uint64_t> sizes; ///< triangles of the growing scene; empty: no such part
     uint32_t width = 512, height = 512;

@@ -34,7 +34,7 @@ bench::Part partNamed(const std::string& name) {
 
 /// A short run.
 void beQuick(bench::BenchSettings& s) {
-    s.scenes = {"cornell_boxes", "cornell_mesh"};
+    s.scenes = {"reading_room", "bathroom"};
     s.repeats = 3;
     s.leastSeconds = 0.05;
     s.width = s.height = 192;
@@ -43,7 +43,7 @@ void beQuick(bench::BenchSettings& s) {
 
 void declareMeasuring(OptionList& list, bench::BenchSettings& s) {
     list.group("Measuring");
-    list.flag("--quick", "a short run: small pictures, few repeats, no large scene",
+    list.flag("--quick", "a short run: small pictures, few repeats, two rooms",
               [&s] { beQuick(s); })
         .changesDefaults();
     list.number("--repeats", "N", "rounds; each measures every contestant once", s.repeats,

@@ -109,7 +109,7 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
         "STL, "
         "FBX, 3DS, ... file; or a "
         "bundled scene by its name "
-        "(cornell_boxes, island, "
+        "(reading_room, atrium, "
         "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
         "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
         "are instances";

@@ -165,7 +165,9 @@ class DimmedSubject final : public stress::Subject {
 /// It names the first picture that does not agree: were another one wrong, that would be it.
 TEST_F(DeviceTest, C62_AgreementFailsForATenthLessLightInTheLastSceneAlone) {
     std::vector<std::string> scenes = librarySceneNames();
-    std::erase(scenes, "still_life"); // which the case leaves out, too
+    // Those that the case leaves out, too.
+    for (const char* hard : {"still_life", "atrium", "bathroom", "door_ajar", "reading_room"})
+        std::erase(scenes, hard);
     stress::DeviceSubject device(testDevice());
     DimmedSubject subject(device, scenes.size() - 1);
     const Case agreement = *std::ranges::find(stress::allCases(), "agreement", &Case::name);

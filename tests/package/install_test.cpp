@@ -53,8 +53,9 @@ TEST_F(Install, HasProgramScenesManualCompletionAndDocuments) {
     for (const auto& entry : fs::directory_iterator(in("share/stromboli/scenes")))
         scenes += entry.path().extension() == ".dae" || entry.path().extension() == ".glb" ||
                   entry.path().extension() == ".xml";
-    EXPECT_EQ(scenes, 17u);
-    EXPECT_TRUE(fs::is_regular_file(in("share/stromboli/scenes/evening_sky.hdr")));
+    EXPECT_EQ(scenes, 21u);
+    for (const char* file : {"evening_sky.hdr", "atrium/stone.ply", "atrium/stone.png"})
+        EXPECT_TRUE(fs::is_regular_file(in(std::string("share/stromboli/scenes/") + file))) << file;
     EXPECT_THAT(shell("find " + *folder / "prefix").output, Not(HasSubstr("write_manual")));
 }
 

@@ -119,10 +119,17 @@ def interval(logs):
     return math.exp(mean), math.exp(mean - half), math.exp(mean + half)
 
 
+def label_of(room):
+    """The file's name, or its folder's where the file is the folder's only scene."""
+    folder, name = os.path.split(os.path.abspath(room))
+    scenes = [entry for entry in os.listdir(folder) if entry.endswith(".xml")]
+    return os.path.basename(folder) if len(scenes) == 1 else os.path.splitext(name)[0]
+
+
 def compare(room, programs, arguments):
     size = tuple(int(n) for n in arguments.size.split("x"))
     scene = restated(room, size, arguments.depth, arguments.work)
-    label = os.path.basename(os.path.dirname(os.path.abspath(room)))
+    label = label_of(room)
     references = {}
     for program in programs:
         path = os.path.join(
