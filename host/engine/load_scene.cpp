@@ -146,9 +146,11 @@ void fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                   const Estimator& estimator) {
     if (built.recordsOfRay == 0) built.recordsOfRay = recordsOfRay(built.bvh, camera);
     built.portals = {};
-    if (aimsAtPortals(built, estimator))
-        built.portals = scene.portals.empty() ? findPortals(built.bvh, camera)
-                                              : statedPortals(scene.portals, camera);
+    if (!aimsAtPortals(built, estimator)) return;
+    const std::shared_ptr<const EnvironmentTable>& sky = built.lights.environment;
+    built.portals = scene.portals.empty()
+                        ? findPortals(built.bvh, camera, sky ? sky->unevenness : 1)
+                        : statedPortals(scene.portals, camera);
 }
 
 } // namespace stromboli

@@ -220,8 +220,11 @@ struct Worth {
     double through = 0, tried = 0;
     double rest = 0; ///< free rays that pass none,
     double all = 0;  ///< of so many
+    /// Of the sky (EnvironmentTable): samples that aim at an opening do not go where the sky is
+    /// bright, as the others do.
+    double unevenness = 1;
 
-    double aimed() const { return through * tried; }
+    double aimed() const { return unevenness * through * tried; }
     double others() const { return 0.5 * rest * all; }
     /// Where half of the samples aim at them.
     double secondMoment() const { return 2 * aimed() + 2 * others(); }
@@ -233,7 +236,7 @@ struct Worth {
         return 0.5 * (through + rest) * all / std::pow(std::sqrt(aimed()) + std::sqrt(others()), 2);
     }
     Worth with(const Opening& o) const {
-        return {through + o.through, tried + o.tried, rest - o.through, all};
+        return {through + o.through, tried + o.tried, rest - o.through, all, unevenness};
     }
 };
 
@@ -306,7 +309,7 @@ Portal portalOf(const Opening& o) {
 
 } // namespace
 
-Portals findPortals(const WideLayout& bvh, const Camera& camera) {
+Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness) {
     constexpr double kLeastGain = 1.25;
     constexpr size_t kLeastFree = 64;
     const Feelers feelers = feelRoom(bvh, camera);
@@ -317,7 +320,8 @@ Portals findPortals(const WideLayout& bvh, const Camera& camera) {
     for (size_t i = 0; i < feelers.size(); i += size_t(room.every))
         room.some.push_back(feelers[i]);
 
-    Worth worth{.rest = double(room.free.size()), .all = double(feelers.size())};
+    Worth worth{
+        .rest = double(room.free.size()), .all = double(feelers.size()), .unevenness = unevenness};
     Portals found;
     while (found.all.size() < kMostPortals) {
         const std::vector<Opening> openings =

@@ -19,10 +19,11 @@ struct Portals {
 
 /// The openings through which what the camera sees, and what is seen from there, sees the sky:
 /// rectangles in the planes of walls or in recesses behind them. Empty where that would gain
-/// little: where the scene lies open, where nothing sees the sky, or where the openings are many
-/// and small. Found by rays (feelers.hpp), the same ones in every render. Portals put no bias on a
-/// picture, whatever they are, so that they need not be exact.
-Portals findPortals(const WideLayout& bvh, const Camera& camera);
+/// little: where the scene lies open, where nothing sees the sky, where the openings are many and
+/// small, or where the sky's light comes from less of it than they show. Found by rays
+/// (feelers.hpp), the same ones in every render. Portals put no bias on a picture, whatever they
+/// are, so that they need not be exact. unevenness: of the sky, as EnvironmentTable has it.
+Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness = 1);
 
 /// Portals that were stated: as many as are used, turned to the side that the camera is on.
 Portals statedPortals(std::span<const Portal> portals, const Camera& camera);

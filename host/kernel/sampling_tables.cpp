@@ -130,22 +130,28 @@ double chosenShare(double threshold) {
     return std::floor(threshold * 0x1p31) * 0x1p-31;
 }
 
-/// The texels of a tile as columns of its alias table; returns the sum of their weights. sines: of
-/// the polar angle, by row.
-double packTile(const Environment& environment, const Tiles& tiles, uint32_t tile,
-                std::span<const double> sines, std::span<Row> texels) {
+struct TileSums {
+    double light = 0;   ///< luminances times sines: the weights of texels
+    double squares = 0; ///< squared luminances times sines
+};
+
+/// The texels of a tile as columns of its alias table. sines: of the polar angle, by row.
+TileSums packTile(const Environment& environment, const Tiles& tiles, uint32_t tile,
+                  std::span<const double> sines, std::span<Row> texels) {
     std::vector<double> weights;
     std::vector<size_t> places;
-    double sum = 0;
+    TileSums sums;
     tiles.forEachTexel(tile, [&](size_t place, uint32_t) {
         gpu::EnvironmentTexel texel{};
         encodeRadiance(environment.radiance[place], texel);
         texels[place] = std::bit_cast<Row>(texel);
-        weights.push_back(luminance(decodeRadiance(texel)) * sines[place / tiles.width]);
+        const double light = luminance(decodeRadiance(texel)), sine = sines[place / tiles.width];
+        weights.push_back(light * sine);
         places.push_back(place);
-        sum += weights.back();
+        sums.light += weights.back();
+        sums.squares += light * light * sine;
     });
-    if (!(sum > 0)) return 0; // no sample comes here
+    if (!(sums.light > 0)) return {}; // no sample comes here
     const std::vector<AliasColumn> columns = buildAliasTable(weights);
     for (size_t i = 0; i < places.size(); ++i) {
         auto texel = std::bit_cast<gpu::EnvironmentTexel>(texels[places[i]]);
@@ -153,7 +159,7 @@ double packTile(const Environment& environment, const Tiles& tiles, uint32_t til
         texel.alias = uint32_t(places[columns[i].alias]);
         texels[places[i]] = std::bit_cast<Row>(texel);
     }
-    return sum;
+    return sums;
 }
 
 } // namespace
@@ -182,13 +188,15 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     const size_t count = size_t(width) * height;
     const Tiles tiles(width, height);
     EnvironmentTable table;
-    std::vector<double> weights(tiles.count()), sines;
+    std::vector<double> weights(tiles.count()), squares(tiles.count()), sines;
     for (uint32_t y = 0; y < height; ++y)
         sines.push_back(std::sin(glm::pi<double>() * (y + 0.5) / height));
     const auto rows = std::make_shared<RowPages>(gpu::ENVIRONMENT_COLUMN_ROWS + count);
     const std::span<Row> texels = std::span(*rows).subspan(gpu::ENVIRONMENT_COLUMN_ROWS);
     tbb::parallel_for(0u, tiles.count(), [&](uint32_t tile) {
-        weights[tile] = packTile(environment, tiles, tile, sines, texels);
+        const TileSums sums = packTile(environment, tiles, tile, sines, texels);
+        weights[tile] = sums.light;
+        squares[tile] = sums.squares;
     });
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (!(sum > 0)) return {};
@@ -206,6 +214,8 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     table.light.tilesAcross = tiles.across;
     table.light.tiles = tiles.count();
     table.luminance = sum / texelsPerAngle * environment.strength;
+    const double all = width * std::accumulate(sines.begin(), sines.end(), 0.0);
+    table.unevenness = std::accumulate(squares.begin(), squares.end(), 0.0) * all / (sum * sum);
     return turned(std::move(table), environment.rotation);
 }
 

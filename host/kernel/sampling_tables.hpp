@@ -35,6 +35,9 @@ struct EnvironmentTable {
     std::vector<double> tileProbability; ///< of a light sample to go to each tile, by weight
     gpu::EnvironmentLight light{};
     double luminance = 0; ///< integral over all directions, of the radiance times the strength
+    /// The mean over all directions of the squared luminance, over the squared mean: 1 for a sky
+    /// that is alike everywhere.
+    double unevenness = 1;
 };
 
 EnvironmentTable packEnvironment(const Environment& environment);

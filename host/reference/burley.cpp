@@ -61,7 +61,9 @@ class Lobes {
 };
 
 Lobes::Lobes(const BurleyParameters& p, const dvec3& wo, bool entering)
-    : p_(p), wo_(wo), base_(p.baseColor), inside_(!p.isThin && !entering) {
+    : p_(p), wo_(wo), base_(p.baseColor),
+      // What lets no light in has no inside.
+      inside_(!p.isThin && !entering && p.transmission > 0) {
     const double ior = p.usedIor(), t = p.transmission;
     eta_ = inside_ ? ior : 1 / ior;
     const double luminance = glm::dot(base_, dvec3(0.212671, 0.715160, 0.072169));

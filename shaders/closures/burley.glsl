@@ -19,11 +19,12 @@ float thinRoughness(BurleyParameters p) { return (0.65 * p.ior - 0.35) * p.rough
 void burleyClosures(inout Closures c, Material m, BurleyParameters p, Incidence i) {
     c.isSmooth = false;
     c.isThin = hasClosure(m, INTERFACE_IS_THIN);
-    c.eta = i.entering || c.isThin ? 1.0 / p.ior : p.ior;
     c.facets = burleyFacets(p, p.roughness);
     c.thinFacets = burleyFacets(p, thinRoughness(p));
     if (sceneHas(FACETS_ARE_TURNED)) c.grain = vec2(1.0, 0.0);
-    const bool isInside = !c.isThin && !i.entering;
+    // What lets no light in has no inside: both of its sides are alike, where nothing says that one is black.
+    const bool isInside = !c.isThin && !i.entering && p.transmission > 0.0;
+    c.eta = isInside ? p.ior : 1.0 / p.ior;
     const float dielectric = c.isThin ? 1.0 : 1.0 - p.metallic;
     const float opaque = isInside ? 0.0 : dielectric * (1.0 - p.transmission);
     const float sheen = isInside ? 0.0 : p.sheen * (c.isThin ? 1.0 - p.transmission : dielectric);

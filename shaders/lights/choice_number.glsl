@@ -29,3 +29,15 @@ ChoiceNumber choiceNumber(vec2 u) {
 
 /// What is left as a number in [0, 1), a multiple of 2^-24.
 float restOf(ChoiceNumber c) { return float(int(c.value >> 7u)) * (1.0 / 16777216.0); }
+
+/// Chooses, and leaves a number that is uniform again. ofFirst: how many of the 2^31 values choose the first.
+bool choosesFirst(inout ChoiceNumber c, uint ofFirst) {
+    const bool first = c.value < ofFirst;
+    const uint width = first ? ofFirst : 0x80000000u - ofFirst;
+    const uint offset = first ? c.value : c.value - ofFirst;
+    const uint digits = newDigits(c);
+    const float within = float(int(digits >> 8u)) * (1.0 / 16777216.0);
+    const float u = min((float(int(offset)) + within) / float(width), 1.0 - UNIT_ROUNDOFF);
+    c.value = uint(int(u * 16777216.0)) << 7u | digits & 0x7Fu;
+    return first;
+}

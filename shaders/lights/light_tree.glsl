@@ -89,18 +89,6 @@ uint valuesOfFirst(float first, float second) {
 /// values of 2^31 as a probability.
 float shareOf(uint values) { return float(values) * (1.0 / 2147483648.0); }
 
-/// Chooses, and leaves a number that is uniform again. ofFirst: as valuesOfFirst() gives it.
-bool choosesFirst(inout ChoiceNumber c, uint ofFirst) {
-    const bool first = c.value < ofFirst;
-    const uint width = first ? ofFirst : 0x80000000u - ofFirst;
-    const uint offset = first ? c.value : c.value - ofFirst;
-    const uint digits = newDigits(c);
-    const float within = float(int(digits >> 8u)) * (1.0 / 16777216.0);
-    const float u = min((float(int(offset)) + within) / float(width), 1.0 - UNIT_ROUNDOFF);
-    c.value = uint(int(u * 16777216.0)) << 7u | digits & 0x7Fu;
-    return first;
-}
-
 // --- The walk ---------------------------------------------------------------------------------------
 // Walks that choose at random and walks along the trail to a given light are one function, and siblings and
 // groups are weighed in loops, so that the code stands in the kernel once: a driver takes it in before it

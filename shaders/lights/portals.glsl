@@ -92,8 +92,10 @@ struct PortalSample {
 const PortalSample NOT_AIMED = PortalSample(false, 0u, vec3(0.0, 0.0, 1.0));
 
 PortalSample samplePortals(const Frame frame, vec3 p, vec3 n, inout vec2 u) {
-    const bool first = u.x < frame.portalShare;
-    float within = first ? u.x / frame.portalShare : 0.0;
+    // By new digits where some are used up: the sky's own tables choose by all 24 of them.
+    ChoiceNumber c = choiceNumber(u);
+    const bool first = choosesFirst(c, uint(frame.portalShare * 2147483648.0));
+    float within = restOf(c);
     const SeenPortal s = choosePortal(p, n, within);
     PortalSample r = PortalSample(first && s.weight > 0.0, s.index, vec3(0.0, 0.0, 1.0));
     if (r.isAimed) {
@@ -102,7 +104,7 @@ PortalSample samplePortals(const Frame frame, vec3 p, vec3 n, inout vec2 u) {
                                                      vec2(within, u.y));
         r.direction = unit(s.corner + a.weights.x * s.edgeA + a.weights.y * s.edgeB);
     } else if (s.weight > 0.0) {
-        u.x = min((u.x - frame.portalShare) / (1.0 - frame.portalShare), 1.0 - UNIT_ROUNDOFF);
+        u.x = restOf(c);
     }
     return r;
 }

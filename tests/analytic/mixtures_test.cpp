@@ -156,10 +156,8 @@ TEST(Mixtures, KeepTheirEmission) {
 // --- Black behind
 // ----------------------------------------------------------------------------------
 
-double brightness(bool isBlackBehind, double cameraHeight, float normal = 0) {
+double brightness(const Material& m, double cameraHeight, float normal = 0) {
     SceneMaker b;
-    Material m = diffuse(0.5f);
-    m.isBlackBehind = isBlackBehind;
     b.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, b.add(m));
     if (normal != 0) {
         b.scene.normals = {glm::vec3(0, 0, normal)};
@@ -171,6 +169,25 @@ double brightness(bool isBlackBehind, double cameraHeight, float normal = 0) {
     return estimate(b.scene, pointCamera({0.5, 0.5, cameraHeight}, {0.5, 0.5, 0}),
                     smallPicture(4, 1))
         .mean.x;
+}
+
+double brightness(bool isBlackBehind, double cameraHeight, float normal = 0) {
+    Material m = diffuse(0.5f);
+    m.isBlackBehind = isBlackBehind;
+    return brightness(m, cameraHeight, normal);
+}
+
+/// Mitsuba's principled material that is twosided: nothing enters it, so it has no inside.
+TEST(BlackBacks, OpaquePrincipledSurfacesAreAlikeFromBothSides) {
+    Material m;
+    m.kind = MaterialKind::Burley;
+    m.burley.baseColor = glm::vec3(0.5f);
+    m.burley.clearcoat = 0.5f;
+    const double front = brightness(m, 2);
+    EXPECT_GT(front, 0.4);
+    EXPECT_NEAR(brightness(m, -2), front, 0.02);
+    m.isBlackBehind = true;
+    EXPECT_EQ(brightness(m, -2), 0);
 }
 
 TEST(BlackBacks, AreBlackOnlyFromBehind) {

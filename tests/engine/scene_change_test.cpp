@@ -7,6 +7,7 @@
 #include "host/kernel/gpu_scene.hpp"
 #include "scene/model/placements.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/kernel/window_room.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
@@ -219,6 +220,23 @@ TEST(SceneChange, WhatIsKeptIsWhatWouldBePackedAnew) {
     EXPECT_EQ(kept.lights.table, anew.lights.table);
     EXPECT_GT(anew.details.rows.size(), anew.details.firstTexel) << "it has textures";
     EXPECT_NE(before.bvh.records, anew.bvh.records);
+}
+
+/// Light samples of a room aim at its window under an even sky, and go where the sky is bright
+/// under a small sun.
+TEST(SceneChange, PortalsAreForSkiesThatAreEven) {
+    Scene room = roomWithWindow(0.8f);
+    const Camera inside = lookingAt({0.9, 0.1, 0.7}, {-0.6, -0.4, -0.3}, 0.8);
+    Estimator estimator;
+    estimator.aimsAtPortals = true;
+    Environment sky{"", 64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(1)), 1, 0};
+    for (const float sun : {1.0f, 1e6f}) {
+        sky.radiance[10 * 64 + 5] = glm::vec3(sun);
+        room.environment = sky;
+        GpuScene packed = packScene(room, buildWideBvh(room));
+        fitToPicture(packed, room, inside, estimator);
+        EXPECT_EQ(packed.portals.all.size(), sun > 1 ? 0u : 1u);
+    }
 }
 
 /// A camera that moves asks for no other kernel, whatever its rays visit.

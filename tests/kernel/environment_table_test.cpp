@@ -111,6 +111,17 @@ TEST(EnvironmentTable, TexelsOfATileArePickedByTheirWeight) {
         EXPECT_NEAR(table.tileProbability[t], ofTile[t] / sum, 1e-5);
 }
 
+TEST(EnvironmentTable, SaysHowUnevenItIs) {
+    Environment e{"", 64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(3)), 2, 0};
+    EXPECT_NEAR(packEnvironment(e).unevenness, 1, 1e-4);
+    // All light comes from one texel: the sphere over its solid angle.
+    e.radiance.assign(e.radiance.size(), glm::vec3(0));
+    e.radiance[10 * 64 + 5] = glm::vec3(7);
+    const double pi = std::acos(-1.0);
+    const double texel = std::sin(pi * 10.5 / 32) * (2 * pi / 64) * (pi / 32);
+    EXPECT_NEAR(packEnvironment(e).unevenness, 4 * pi / texel, 1e-3 * 4 * pi / texel);
+}
+
 TEST(EnvironmentTable, ABlackOneHasNoTexels) {
     Environment e = noise(4, 2);
     e.radiance.assign(8, glm::vec3(0));

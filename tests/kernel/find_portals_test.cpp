@@ -89,6 +89,13 @@ TEST(FindPortals, FindsNothingInTheOpenInTheDarkAndOfNothing) {
     EXPECT_TRUE(foundIn(roomWithWindow(0.5f), away).all.empty()) << "the camera sees nothing";
 }
 
+/// Samples that aim at a window miss a sun in the sky's picture.
+TEST(FindPortals, FindsNothingUnderASunThatIsSmallerThanTheWindow) {
+    const WideLayout bvh = buildWideBvh(roomWithWindow(0.8f));
+    EXPECT_EQ(findPortals(bvh, kInside, 2).all.size(), 1u);
+    EXPECT_TRUE(findPortals(bvh, kInside, 100).all.empty());
+}
+
 /// Bytes of pictures depend on it.
 TEST(FindPortals, FindsTheSameAgain) {
     const Scene scene = roomWithWindow(0.8f);

@@ -2,13 +2,17 @@
 // bytes however the work is cut, and less noise where light comes through a window.
 #include "host/kernel/light_table.hpp"
 #include "host/render/sampling_session.hpp"
+#include "scene/read_scene.hpp"
+#include "tests/film/temporary_folder.hpp"
 #include "tests/kernel/window_room.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
 namespace stromboli {
@@ -170,6 +174,46 @@ TEST_F(PortalLight, InThePlaneOfASurfaceHasNoBias) {
     const Scene room = roomWithWindow(1);
     const Portals inWall{{{{-1, -0.5f, -0.5f}, {0, 1, 0}, {0, 0, 1}}}, 0.75};
     EXPECT_NEAR(brightness(room, inWall) / brightness(room, {}), 1, 0.01);
+}
+
+/// The choice whether to aim uses up digits of a number by which the tables of the sky choose, to
+/// the last one where few texels of a large picture have most of its light.
+TEST_F(PortalLight, LeavesASunAsBrightAsItIs) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "sky.xml") << R"(<scene version="3.0.0">
+        <emitter type="sunsky"><float name="turbidity" value="3"/><float name="sun_scale" value="6"/>
+            <vector name="sun_direction" x="0.3" y="0.92" z="0.45"/><float name="sky_scale" value="6"/>
+            <transform name="to_world"><rotate x="1" angle="-90"/></transform></emitter>
+        <shape type="rectangle"/></scene>)";
+    const Environment sky = *readScene(folder / "sky.xml").environment;
+    const auto brightest =
+        size_t(std::ranges::max_element(sky.radiance, {}, &glm::vec3::y) - sky.radiance.begin());
+    const double polar = std::numbers::pi * (double(brightest / sky.width) + 0.5) / sky.height;
+    const double turn = 2 * std::numbers::pi * (double(brightest % sky.width) + 0.5) / sky.width;
+    // Where the sun shines through a roof 4 m above the origin (shaders/lights/environment.glsl).
+    const auto x = float(-4 * std::tan(polar) * std::sin(turn)),
+               z = float(4 * std::tan(polar) * std::cos(turn));
+    scenes::SceneMaker b;
+    b.scene.environment = sky;
+    b.quad({-10, 0, -10}, {0, 0, 20}, {20, 0, 0}, b.add(scenes::diffuse(0.5f)));
+    const uint32_t roof = b.add(scenes::diffuse(0));
+    b.quad({-50, 4, -50}, {x + 48.5f, 0, 0}, {0, 0, 100}, roof);
+    b.quad({x + 1.5f, 4, -50}, {48.5f - x, 0, 0}, {0, 0, 100}, roof);
+    b.quad({x - 1.5f, 4, -50}, {3, 0, 0}, {0, 0, z + 48.5f}, roof);
+    b.quad({x - 1.5f, 4, z + 1.5f}, {3, 0, 0}, {0, 0, 48.5f - z}, roof);
+    const Portals hole{{{{x - 1.5f, 4, z - 1.5f}, {3, 0, 0}, {0, 0, 3}}}, 0.75};
+    view_ = lookingAt({0, 3, 1e-2}, {0, 0, 0}, 0.7);
+    settings_.area.width = 32, settings_.area.height = 18;
+    settings_.estimator.maxBounces = 1;
+    settings_.budget.mostSamplesPerPixel = 4096;
+    const auto brightness = [&](const Portals& portals) {
+        settings_.estimator.aimsAtPortals = !portals.all.empty();
+        double mean = 0;
+        for (const PixelStatistics& p : pictureOf(b.scene, portals).pixels)
+            mean += p.mean.y;
+        return mean;
+    };
+    EXPECT_NEAR(brightness(hole) / brightness({}), 1, 0.002);
 }
 
 TEST_F(PortalLight, HasLessNoiseThroughAWindow) {

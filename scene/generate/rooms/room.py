@@ -53,7 +53,7 @@ class Room(Part):
                      '        <lookat origin="%s" target="%s" up="0, 1, 0"/>' % tuple(numbers), "    </transform>",
                      '    <sampler type="independent"><integer name="sample_count" value="64"/></sampler>',
                      '    <film type="hdrfilm">', '        <integer name="width" value="640"/>',
-                     '        <integer name="height" value="360"/>', '        <rfilter type="tent"/>',
+                     '        <integer name="height" value="360"/>', '        <rfilter type="box"/>',
                      "    </film>", "</sensor>", ""]
 
     def group(self, name):
