@@ -4,7 +4,7 @@
     docs/pictures/bundled_scenes.py overview FOLDER PICTURE.png
     docs/pictures/bundled_scenes.py contact FOLDER SHEET.webp
 
-overview: the picture of README.md, three scenes side by side. contact: the sheet of docs/guide/denoise.md, a row for each
+overview: the picture of README.md, the four rooms. contact: the sheet of docs/guide/denoise.md, a row for each
 scene: 32 samples a pixel, the same picture denoised, the same through the agx curve, and 4,096 samples. Pictures that are
 in FOLDER already are not rendered again. Needs the package python3-pil. The sheet takes some ten minutes on two cores."""
 
@@ -18,12 +18,14 @@ from PIL import Image, ImageDraw
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("STROMBOLI", ROOT / "stromboli")  # another build of it
 
-OVERVIEW = (400, 300)
+OVERVIEW = (480, 270)
 OVERVIEW_SCENES = {
-    "still_life": ["-s", 512],
-    "island": ["-s", 512],
-    "lighthouse": ["-s", 512],
+    "reading_room": ["-s", 256],
+    "door_ajar": ["-s", 1024],
+    "bathroom": ["-s", 768],
+    "atrium": ["-s", 256],
 }
+OVERVIEW_COLUMNS = 2
 
 SHEET, LABEL, GAP = (160, 120), 16, 4
 SHEET_SCENES = ["cornell_boxes", "cornell_mirror_glass", "cornell_metal", "light_sphere", "island", "texture_chart",
@@ -50,10 +52,12 @@ def shown(file, *words):
 
 def overview(folder, output):
     width, height = OVERVIEW
-    sheet = Image.new("RGB", (len(OVERVIEW_SCENES) * (width + GAP) - GAP, height), "white")
-    for column, (scene, words) in enumerate(OVERVIEW_SCENES.items()):
+    rows = len(OVERVIEW_SCENES) // OVERVIEW_COLUMNS
+    sheet = Image.new("RGB", (OVERVIEW_COLUMNS * (width + GAP) - GAP, rows * (height + GAP) - GAP), "white")
+    for i, (scene, words) in enumerate(OVERVIEW_SCENES.items()):
         picture = rendered(folder / f"overview-{scene}.png", scene, OVERVIEW, "--denoise", "on", "--view", "agx", *words)
-        sheet.paste(Image.open(picture).convert("RGB"), (column * (width + GAP), 0))
+        row, column = divmod(i, OVERVIEW_COLUMNS)
+        sheet.paste(Image.open(picture).convert("RGB"), (column * (width + GAP), row * (height + GAP)))
     sheet.save(output, optimize=True)
 
 

@@ -120,10 +120,10 @@ def interval(logs):
 
 
 def label_of(room):
-    """The file's name, or its folder's where the file is the folder's only scene."""
+    """Of all rooms of a comparison another one: the file's name, or the folder's where files are named after a format."""
     folder, name = os.path.split(os.path.abspath(room))
-    scenes = [entry for entry in os.listdir(folder) if entry.endswith(".xml")]
-    return os.path.basename(folder) if len(scenes) == 1 else os.path.splitext(name)[0]
+    stem = os.path.splitext(name)[0]
+    return os.path.basename(folder) if stem in ("scene", "mitsuba3") else stem
 
 
 def compare(room, programs, arguments):
