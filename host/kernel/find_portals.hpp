@@ -23,7 +23,7 @@ struct Portals {
 /// small, or where the sky's light comes from less of it than they show. Found by rays
 /// (feelers.hpp), the same ones in every render. Portals put no bias on a picture, whatever they
 /// are, so that they need not be exact. unevenness: of the sky, as EnvironmentTable has it.
-Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness = 1);
+Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness);
 
 /// Portals that were stated: as many as are used, turned to the side that the camera is on.
 Portals statedPortals(std::span<const Portal> portals, const Camera& camera);

@@ -143,7 +143,7 @@ std::vector<Case> randomCases();
 std::vector<Case> furnaceCases();    ///< pictures that are one colour
 std::vector<Case> estimatorCases();  ///< ways to the same mean
 std::vector<Case> filmCases();       ///< sums of samples, and how the work is cut
-std::vector<Case> agreementCases();  ///< device against reference
+std::vector<Case> agreementCases();  ///< device against reference, of scenesThatAgree()
 std::vector<Case> arithmeticCases(); ///< what is taken for granted of floats
 std::vector<Case> environmentCases();
 std::vector<Case> materialCases(); ///< parameters at their ends, layers, nested volumes
@@ -151,6 +151,10 @@ std::vector<Case> mediumCases();   ///< densities, borders and grids of media
 std::vector<Case> instanceCases(); ///< meshes met through placements
 std::vector<Case> textureCases();
 std::vector<Case> tangentCases(); ///< normal maps without a frame
+
+/// The bundled scenes for which some samples of the reference are enough to compare with. Throws
+/// SceneError where the bundled scenes are not there.
+std::vector<std::string> scenesThatAgree();
 
 // --- Reports -------------------------------------------------------------------------------------
 

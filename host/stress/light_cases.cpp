@@ -239,18 +239,18 @@ std::vector<Case> estimatorCases() {
 // The device's pictures against those of the reference, an independent path tracer in double
 // precision on the CPU.
 
-namespace {
-
-std::vector<std::string> bundledScenes() {
+std::vector<std::string> scenesThatAgree() {
     std::vector<std::string> names = librarySceneNames();
     if (names.empty()) throw SceneError("the bundled scenes (scene/library) are not there");
     // The reference leaves lights to bounces from glossy surfaces: in a few samples most pixels of
-    // this scene have not met its small lamp in a highlight, and know nothing of their error.
-    // The rooms are harder still, and the reference takes minutes for them.
+    // still_life have not met its small lamp in a highlight, and know nothing of their error. The
+    // rooms are harder still, and the reference takes minutes for them.
     for (const char* hard : {"still_life", "atrium", "bathroom", "door_ajar", "reading_room"})
         std::erase(names, hard);
     return names;
 }
+
+namespace {
 
 /// Share of the pixels that fail their own test; 1 for a picture whose mean, blocks or constant
 /// pixels differ. A right renderer fails one run in a hundred seeds, all scenes together; the seed
@@ -258,7 +258,7 @@ std::vector<std::string> bundledScenes() {
 Finding agreement(Run& run) {
     Finding f;
     f.bound = 1 - CheckSettings{}.requiredFraction;
-    const std::vector<std::string> names = bundledScenes();
+    const std::vector<std::string> names = scenesThatAgree();
     CheckSettings check;
     check.familyError = 0.01 / double(names.size());
     RenderSettings s;

@@ -2,7 +2,6 @@
 // not about the device, on the code for the CPU; naive code fails every one of them.
 #include "host/stress/case.hpp"
 #include "host/stress/device_subject.hpp"
-#include "scene/find_scene.hpp"
 #include "tests/hard_cases/cpu_subject.hpp"
 #include "tests/hard_cases/naive_intersection.hpp"
 #include "tests/hard_cases/naive_subject.hpp"
@@ -164,10 +163,7 @@ class DimmedSubject final : public stress::Subject {
 
 /// It names the first picture that does not agree: were another one wrong, that would be it.
 TEST_F(DeviceTest, C62_AgreementFailsForATenthLessLightInTheLastSceneAlone) {
-    std::vector<std::string> scenes = librarySceneNames();
-    // Those that the case leaves out, too.
-    for (const char* hard : {"still_life", "atrium", "bathroom", "door_ajar", "reading_room"})
-        std::erase(scenes, hard);
+    const std::vector<std::string> scenes = stress::scenesThatAgree();
     stress::DeviceSubject device(testDevice());
     DimmedSubject subject(device, scenes.size() - 1);
     const Case agreement = *std::ranges::find(stress::allCases(), "agreement", &Case::name);

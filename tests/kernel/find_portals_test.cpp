@@ -17,7 +17,7 @@ using namespace test;
 const Camera kInside = lookingAt({0.9, 0.1, 0.7}, {-0.6, -0.4, -0.3}, 0.8);
 
 Portals foundIn(const Scene& scene, const Camera& camera = kInside) {
-    return findPortals(buildWideBvh(scene), camera);
+    return findPortals(buildWideBvh(scene), camera, 1);
 }
 
 /// The portal's box has these corners, to within a share of its longest side; it may lie in a

@@ -221,7 +221,7 @@ TEST_F(PortalLight, HasLessNoiseThroughAWindow) {
     settings_.estimator.aimsAtPortals = false;
     const Film plain = pictureOf(scene, {});
     settings_.estimator.aimsAtPortals = true;
-    const Film aimed = pictureOf(scene, findPortals(buildWideBvh(scene), kRoomView));
+    const Film aimed = pictureOf(scene, findPortals(buildWideBvh(scene), kRoomView, 1));
     double before = 0, after = 0;
     for (size_t i = 0; i < plain.pixels.size(); ++i) {
         before += plain.pixels[i].m2.y;
