@@ -21,11 +21,14 @@ constexpr double kOpenShare = 0.3;
 
 } // namespace
 
-bool liesOpen(const GpuScene& scene, const Camera& camera) {
+bool seesSkyInPart(const GpuScene& scene, const Camera& camera) {
     constexpr uint32_t kSide = 20, kRays = 4;
     Random random(1);
     const Feelers seen = lookAround(scene.bvh, camera, kSide);
-    return shareOfFree(feelFrom(scene.bvh, seen, kRays, random)).value_or(1) > kOpenShare;
+    const Feelers once = feelFrom(scene.bvh, seen, kRays, random);
+    const double free = shareOfFree(once).value_or(1);
+    if (free > 0) return free <= kOpenShare;
+    return shareOfFree(feelFrom(scene.bvh, once, kRays, random)).value_or(0) > 0;
 }
 
 // --- Learning ------------------------------------------------------------------------------------

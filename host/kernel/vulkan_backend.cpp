@@ -141,7 +141,7 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     if (aims) estimator_.guidesLight = false;
     // The driver compiles on one thread, and the scene goes to the device meanwhile.
     const bool mayLearn =
-        guidesLight(*scene_, estimator_) && (tuning_.guide || !liesOpen(*scene_, camera));
+        guidesLight(*scene_, estimator_) && (tuning_.guide || seesSkyInPart(*scene_, camera));
     if (!mayLearn) estimator_.guidesLight = false;
     const KernelFeatures first = mayLearn ? notingFeatures(*scene_, camera, estimator, tuning)
                                           : kernelFeatures(*scene_, camera, estimator_, tuning);

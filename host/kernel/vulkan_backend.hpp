@@ -31,9 +31,10 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
                        const GpuScene& scene, const PictureArea& area);
 
-/// Whether so much of what the camera sees lies under the open sky that light samples to it arrive
-/// in any case.
-bool liesOpen(const GpuScene& scene, const Camera& camera);
+/// Whether there is something to learn of which light samples to the sky arrive: not where so much
+/// of what the camera sees lies open to it that they arrive in any case, nor where the sky is seen
+/// through glass alone and none does.
+bool seesSkyInPart(const GpuScene& scene, const Camera& camera);
 
 // --- The backend ---------------------------------------------------------------------------------
 

@@ -92,7 +92,9 @@ TEST_F(GuidedLight, AnyGuideHasNoBias) {
     settings_.estimator.directLight = DirectLight::Mis;
     settings_.estimator.branches = 4;
     settings_.estimator.lightSamples = 2;
+    settings_.estimator.lightChoice = LightChoice::Each;
     expectNoBias(roomWithMore(1), "rough glass, each of two lights, branches");
+    settings_.estimator.lightChoice = LightChoice::Automatic;
     settings_.estimator.branches = 1;
     expectNoBias(roomWithMore(4), "rough glass, a tree of lights");
 }
@@ -135,6 +137,22 @@ TEST_F(GuidedLight, IsLeftWhereASceneLiesOpen) {
     const Film asked = pictureOf(b.scene);
     EXPECT_FALSE(isGuided_);
     EXPECT_TRUE(sameStatistics(plain, asked));
+}
+
+/// Learning would take a second kernel and as many paths as four samples of each pixel.
+TEST(SeesSkyInPart, WhereRaysLeaveThroughAWindowThatHasNoPane) {
+    const auto sees = [](const Scene& scene) {
+        return seesSkyInPart(packScene(scene, buildWideBvh(scene)), kView);
+    };
+    EXPECT_TRUE(sees(roomWithWindow(0.7f)));
+    scenes::SceneMaker b;
+    b.scene = roomWithWindow(0.7f);
+    b.quad({-1, -1, -1}, {0, 2, 0}, {0, 0, 2}, b.add(scenes::diffuse(0)));
+    EXPECT_FALSE(sees(b.scene)) << "behind a pane";
+    scenes::SceneMaker open;
+    open.quad({-5, -1, -5}, {0, 0, 10}, {10, 0, 0}, open.add(scenes::diffuse(0.6f)));
+    open.scene.environment = roughSky();
+    EXPECT_FALSE(sees(open.scene)) << "under the open sky";
 }
 
 TEST_F(GuidedLight, HasTheSameBytesHoweverTheWorkIsCut) {

@@ -51,5 +51,15 @@ TEST(LightChoice, IsByTreeWhereThereIsAPointLight) {
     EXPECT_EQ(scene.choice(), LightChoice::Tree);
 }
 
+/// Of two lights that are not points, one is picked: a second light sample costs more than it gains.
+TEST(LightChoice, OfTwoIsByTreeUnlessOneIsADeltaLight) {
+    SceneUnderSky scene(2);
+    scene.maker.scene.triangles.pop_back();
+    EXPECT_EQ(scene.choice(), LightChoice::Tree) << "faint beside the sky, but neither is left out";
+    scene.maker.scene.triangles.pop_back();
+    scene.maker.scene.lights.emplace_back().kind = LightKind::Point;
+    EXPECT_EQ(scene.choice(), LightChoice::Each);
+}
+
 } // namespace
 } // namespace stromboli::test

@@ -134,7 +134,9 @@ TEST_F(PortalLight, AnyPortalsHaveNoBias) {
     settings_.estimator.directLight = DirectLight::Mis;
     settings_.estimator.branches = 4;
     settings_.estimator.lightSamples = 2;
+    settings_.estimator.lightChoice = LightChoice::Each;
     expectNoBias(roomWithMore(1), "rough glass, each of two lights, branches");
+    settings_.estimator.lightChoice = LightChoice::Automatic;
     settings_.estimator.branches = 1;
     settings_.estimator.lightSamples = 1;
     Scene ambient = roomWithWindow(1);
