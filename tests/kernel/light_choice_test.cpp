@@ -51,7 +51,8 @@ TEST(LightChoice, IsByTreeWhereThereIsAPointLight) {
     EXPECT_EQ(scene.choice(), LightChoice::Tree);
 }
 
-/// Of two lights that are not points, one is picked: a second light sample costs more than it gains.
+/// One of two lights is picked where neither is a delta light: two samples cost more than they
+/// gain.
 TEST(LightChoice, OfTwoIsByTreeUnlessOneIsADeltaLight) {
     SceneUnderSky scene(2);
     scene.maker.scene.triangles.pop_back();
