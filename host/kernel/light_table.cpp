@@ -188,17 +188,17 @@ class Packer {
         out_.numberOf[primitive] = entry;
     }
 
-    /// docs/results.md, "Few lights", has what was measured: of two lights, both are sampled where
-    /// one of them is a delta light, whose samples have no noise but that of being picked; the few
-    /// triangles of a single mesh, and lights that are faint beside an environment, are picked as
-    /// well by their power, which is quicker.
+    /// docs/results.md, "Few lights", has what was measured: of two lights, both are sampled with
+    /// less noise at equal time, unless they are a sky and a lamp; the few triangles of a single
+    /// mesh, and lights that are faint beside an environment, are picked as well by their power,
+    /// which is quicker.
     LightChoice suitableChoice() const {
         constexpr uint32_t kFewTriangles = 64;
         const bool oneMesh = out_.sampledKinds == 1u << gpu::LIGHT_TRIANGLE && meshes_ == 1 &&
                              out_.count < kFewTriangles;
         if (oneMesh) return LightChoice::Power;
-        if (out_.count == 2)
-            return out_.areaCount < out_.count ? LightChoice::Each : LightChoice::Tree;
+        const bool areSkyAndLamp = out_.environment && out_.areaCount == out_.count;
+        if (out_.count == 2) return areSkyAndLamp ? LightChoice::Tree : LightChoice::Each;
         return isMostlyEnvironment() ? LightChoice::Power : LightChoice::Tree;
     }
 

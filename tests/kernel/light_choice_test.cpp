@@ -51,15 +51,20 @@ TEST(LightChoice, IsByTreeWhereThereIsAPointLight) {
     EXPECT_EQ(scene.choice(), LightChoice::Tree);
 }
 
-/// One of two lights is picked where neither is a delta light: two samples cost more than they
-/// gain.
-TEST(LightChoice, OfTwoIsByTreeUnlessOneIsADeltaLight) {
+/// A sample of the sky is dear, and where there is a lamp it is often in shadow.
+TEST(LightChoice, OfTwoIsByTreeForASkyAndALampAlone) {
     SceneUnderSky scene(2);
     scene.maker.scene.triangles.pop_back();
-    EXPECT_EQ(scene.choice(), LightChoice::Tree) << "faint beside the sky, but neither is left out";
+    EXPECT_EQ(scene.choice(), LightChoice::Tree) << "faint beside the sky, but not left out";
     scene.maker.scene.triangles.pop_back();
     scene.maker.scene.lights.emplace_back().kind = LightKind::Point;
-    EXPECT_EQ(scene.choice(), LightChoice::Each);
+    EXPECT_EQ(scene.choice(), LightChoice::Each) << "a delta light";
+    SceneUnderSky lamps(2);
+    lamps.maker.scene.environment.reset();
+    lamps.maker.sphere({0, 2, 0}, 0.1f, 1);
+    lamps.maker.scene.triangles.resize(1);
+    lamps.maker.sphere({0, 3, 0}, 0.1f, 1);
+    EXPECT_EQ(lamps.choice(), LightChoice::Each) << "two lamps";
 }
 
 } // namespace
