@@ -157,7 +157,7 @@ enum class LightChoice {
 };
 template <>
 inline constexpr auto kNamedValues<LightChoice> = std::to_array<NamedValue<LightChoice>>({
-    {LightChoice::Automatic, "auto", "tree, but both of two lights unless they are a sky and a lamp"},
+    {LightChoice::Automatic, "auto", "tree, but both of two lights unless a sky and a lamp"},
     {LightChoice::Tree, "tree", "by what it is likely to bring to the surface"},
     {LightChoice::Power, "power", "by its power"},
     {LightChoice::Uniform, "uniform", "any, equally often"},
