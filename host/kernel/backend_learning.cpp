@@ -84,7 +84,7 @@ void VulkanBackend::learn(const DeviceTuning& ofPicture) {
     tuning.texelFetch = ofPicture.texelFetch; // as the scene was uploaded
     gpu::Frame frame = makeFrame(*scene_, camera_, area, estimator_);
     frame.branches = 1;
-    frame.notedSamples = kNotedSamples;
+    frame.notedSamples = notedSamples(area.pixelCount());
     frame.maxBounces = std::min(frame.maxBounces, gpu::GUIDE_VERTICES);
     frame.seed = ~frame.seed; // samples of their own
     const bool isKnown = learntFor_ && learntFor_->parallel == camera_.orthographic &&

@@ -71,7 +71,7 @@ uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels) {
     const uint64_t items = std::min<uint64_t>(DeviceTuning{}.itemsPerDispatch, pixels);
     const uint64_t notes =
         scene.lights.environment
-            ? kNotedPixels * kNotedSamples * gpu::GUIDE_VERTICES * sizeof(gpu::LightNote)
+            ? mostNotedPaths(kNotedPixels) * gpu::GUIDE_VERTICES * sizeof(gpu::LightNote)
             : 0;
     return std::max({largestSceneBuffer(scene), items * sizeof(gpu::WorkItem), notes});
 }
@@ -105,8 +105,8 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
             gpu::GUIDE_NODES + uint64_t(gpu::GUIDE_CELLS) * gpu::GUIDE_TABLE_ROWS;
         plans.push_back({"light guide", guideRows * sizeof(Row), rows});
         plans.push_back({"notes of light samples",
-                         std::min(uint64_t(area.width) * area.height, kNotedPixels) *
-                             kNotedSamples * gpu::GUIDE_VERTICES * sizeof(gpu::LightNote),
+                         mostNotedPaths(uint64_t(area.width) * area.height) * gpu::GUIDE_VERTICES *
+                             sizeof(gpu::LightNote),
                          rows});
     }
     if (aimsAtPortals(scene, estimator))

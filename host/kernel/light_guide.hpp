@@ -4,6 +4,7 @@
 #include "host/kernel/sampling_tables.hpp"
 #include "shaders/shared/guide_types.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,10 +28,19 @@ struct LightGuide {
     static constexpr size_t kLeastNotes = 4096;
 };
 
-/// Light samples are noted of a picture like the one that is rendered, of at most so many pixels
-/// and so many samples of each.
-inline constexpr uint64_t kNotedPixels = 1u << 16;
-inline constexpr uint32_t kNotedSamples = 4;
+/// Light samples are noted of a picture like the one that is rendered, of at most so many pixels.
+inline constexpr uint64_t kNotedPixels = 1u << 15;
+
+/// Samples of each pixel of that picture: two, and up to four of small ones, for as many paths.
+constexpr uint32_t notedSamples(uint64_t pixels) {
+    return uint32_t(std::clamp<uint64_t>(kNotedPixels / std::max<uint64_t>(pixels, 1), 2, 4));
+}
+
+/// A bound of the paths that are noted for a picture of so many pixels.
+constexpr uint64_t mostNotedPaths(uint64_t pixels) {
+    const uint64_t noted = std::min(pixels, kNotedPixels);
+    return std::max(2 * noted, std::min(4 * noted, kNotedPixels));
+}
 
 /// The rows of a guide. nodes: GUIDE_NODES, in their order; probabilities: for each of GUIDE_CELLS
 /// cells that of each tile, positive wherever that by weight is.

@@ -176,5 +176,16 @@ TEST_F(LightGuideTest, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.rows, two.rows);
 }
 
+/// The buffer of notes is as large as the bound.
+TEST(LightGuide, NotesNoMorePathsThanTheirBufferHolds) {
+    for (uint64_t pixels = 1; pixels <= kNotedPixels; ++pixels) {
+        const uint64_t paths = pixels * notedSamples(pixels);
+        ASSERT_LE(paths, mostNotedPaths(pixels)) << pixels;
+        ASSERT_LE(paths, mostNotedPaths(2 * kNotedPixels)) << pixels << ", of a larger picture";
+    }
+    EXPECT_EQ(notedSamples(100), 4u);
+    EXPECT_EQ(notedSamples(kNotedPixels), 2u);
+}
+
 } // namespace
 } // namespace stromboli::test
