@@ -25,8 +25,7 @@ double fresnel(double cosine, double eta, double& cosTransmitted) {
     return (s * s + p * p) / 2;
 }
 
-/// g(a) = (a (1 + erf(a)) + exp(-a^2) / sqrt(pi)) / 2 for a >= 0, which a table of a material asks
-/// for a million times: the first three terms of Taylor's series at the nearest of 1025 places. The
+/// beckmannArea() by the first three terms of Taylor's series at the nearest of 1025 places. The
 /// next one is below 3e-9, as the third derivative is below 0.49.
 class BeckmannArea {
   public:
@@ -62,8 +61,7 @@ struct Microfacets {
         if (distribution == FacetDistribution::Ggx)
             return (c + std::sqrt(square(sine) + square(c))) / 2;
         if (sine == 0) return c;
-        static const BeckmannArea area;
-        return sine * area(c / sine);
+        return sine * beckmannArea(c / sine);
     }
     /// Squared tangent of normals such that a share u of the surface has smaller ones.
     double tangent2(double u) const {
@@ -131,6 +129,11 @@ glm::vec4 cubic(double a, double b, double c, double d) {
 }
 
 } // namespace
+
+double beckmannArea(double a) {
+    static const BeckmannArea area;
+    return area(a);
+}
 
 /// Walsh 1926; Duntley, "The Optical Properties of Diffusing Materials" (1942), for light from the
 /// less dense side. On the other, radiance over the squared index is what is conserved: n^2 (1 -

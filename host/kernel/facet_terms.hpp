@@ -7,6 +7,11 @@
 
 namespace stromboli {
 
+/// (a (1 + erf(a)) + exp(-a^2) / sqrt(pi)) / 2 for a >= 0, to within 3e-9: the area of Beckmann's
+/// facets that is seen at the angle t from the normal is that of a = 1 / (alpha tan(t)), times
+/// alpha sin(t). A material's tables ask for it a million times.
+double beckmannArea(double a);
+
 // What the interface of a dielectric does with light that is scattered once by it: the terms that
 // plastic is made of (docs/theory/surfaces.md, "Plastic"). ior: index under the interface over the
 // index above it. facets: their distribution and masking; alpha is stated beside them.

@@ -97,6 +97,14 @@ double fresnel(double cosine, double eta) {
     return (s * s + p * p) / 2;
 }
 
+TEST(FacetTerms, AreaOfBeckmannsFacetsIsThatOfItsFormula) {
+    for (double a = 0; a < 8; a += 0.00037) {
+        const double bell = std::exp(-a * a) / std::sqrt(3.14159265358979323846);
+        ASSERT_NEAR(beckmannArea(a), (a * (1 + std::erf(a)) + bell) / 2, 3e-9) << a;
+    }
+    EXPECT_EQ(beckmannArea(1e30), 1e30);
+}
+
 TEST(InterfaceTable, InternalReflectanceIsTheMeanOfFresnels) {
     EXPECT_NEAR(internalReflectance(1.5), 0.5963, 1e-4); // Duntley 1942
     EXPECT_EQ(internalReflectance(1), 0);
