@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stromboli::reference {
 
@@ -35,6 +36,36 @@ uint64_t join(uint32_t high, uint32_t low) {
 /// Samples of which one sequence has numbers; more of them begin another one.
 constexpr uint32_t kIndexBits = 24;
 
+/// What makes a block's points a sequence of their own.
+struct SequenceKeys {
+    std::array<uint64_t, 4> numbers; ///< by which digits are flipped
+    uint64_t shuffle = 0;            ///< by which the points are put into another order
+};
+
+SequenceKeys makeSequenceKeys(uint32_t pixel, uint32_t sequence, uint32_t block, uint32_t seed) {
+    const auto a = philox({block, sequence, pixel, kKeys}, {seed, 0});
+    const auto b = philox({block, sequence, pixel, kMoreKeys}, {seed, 0});
+    const auto c = philox({block, sequence, pixel, kShuffle}, {seed, 0});
+    return {{join(a[0], a[1]), join(a[2], a[3]), join(b[0], b[1]), join(b[2], b[3])},
+            join(c[0], c[1])};
+}
+
+/// makeSequenceKeys(), which all samples of a pixel ask for the same blocks: each thread remembers
+/// those of the last pixel.
+SequenceKeys sequenceKeys(uint32_t pixel, uint32_t sequence, uint32_t block, uint32_t seed) {
+    struct Known {
+        std::array<uint32_t, 4> of{0, 0, 0, 0};
+        SequenceKeys keys;
+        bool isSet = false;
+    };
+    constexpr uint32_t kBlocks = 64; // a path of many bounces takes that many
+    thread_local std::array<Known, kBlocks> known;
+    Known& k = known[block % kBlocks];
+    const std::array<uint32_t, 4> of{pixel, sequence, block, seed};
+    if (!k.isSet || k.of != of) k = {of, makeSequenceKeys(pixel, sequence, block, seed), true};
+    return k.keys;
+}
+
 } // namespace
 
 RandomStream::RandomStream(uint32_t pixel, uint32_t sample, uint32_t seed, Sampler sampler)
@@ -50,15 +81,9 @@ void RandomStream::fill() {
         keys_ = {a[1], a[3], b[1], b[3]};
         return;
     }
-    // All samples of the pixel have the same keys: `sequence` only changes after 2^kIndexBits of
-    // them.
-    const uint32_t sequence = sample_ >> kIndexBits;
-    const auto a = philox({block, sequence, pixel_, kKeys}, {seed_, 0});
-    const auto b = philox({block, sequence, pixel_, kMoreKeys}, {seed_, 0});
-    const auto c = philox({block, sequence, pixel_, kShuffle}, {seed_, 0});
-    const uint32_t index = owenShuffled(sample_ & ((1u << kIndexBits) - 1), join(c[0], c[1]));
-    digits_ = sobolPoint(index);
-    keys_ = {join(a[0], a[1]), join(a[2], a[3]), join(b[0], b[1]), join(b[2], b[3])};
+    const SequenceKeys keys = sequenceKeys(pixel_, sample_ >> kIndexBits, block, seed_);
+    digits_ = sobolPoint(owenShuffled(sample_ & ((1u << kIndexBits) - 1), keys.shuffle));
+    keys_ = keys.numbers;
 }
 
 double RandomStream::next() {
@@ -133,6 +158,20 @@ constexpr std::array<SobolColumns, kSobolDimensions> kColumns = {
     vanDerCorput(), columnsOf(kPrimitives[0]), columnsOf(kPrimitives[1]),
     columnsOf(kPrimitives[2])};
 
+/// The points of indices that have no bits but those of one byte, by the byte's place and value:
+/// any point is the exclusive or of four.
+using PointsOfByte = std::array<std::array<uint32_t, kSobolDimensions>, 256>;
+constexpr std::array<PointsOfByte, 4> pointsOfBytes() {
+    std::array<PointsOfByte, 4> points{};
+    for (size_t byte = 0; byte < points.size(); ++byte)
+        for (size_t value = 0; value < points[byte].size(); ++value)
+            for (size_t bit = 0; bit < 8; ++bit)
+                for (size_t d = 0; d < kSobolDimensions; ++d)
+                    if (value >> bit & 1) points[byte][value][d] ^= kColumns[d][8 * byte + bit];
+    return points;
+}
+constexpr std::array<PointsOfByte, 4> kPointsOfBytes = pointsOfBytes();
+
 /// Stafford's thirteenth mixing of 64 bits (2011), as in SplitMix64.
 uint64_t mixed(uint64_t x) {
     x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
@@ -150,25 +189,37 @@ uint64_t hashOfDigits(uint32_t digits, uint32_t count, uint64_t key) {
 /// the binary tree that their digits descend.
 constexpr uint32_t kDigitsOfAHash = 6;
 
-/// Flips digit k of a number, its bit 31 - k, by a bit that the digits 0 to k - 1 choose: the hash
-/// of those before its group has one bit for each way in which the group can begin.
-uint32_t flipped(uint32_t digits, uint32_t count, uint64_t key) {
-    uint32_t result = digits;
-    for (uint32_t first = 0; first < count; first += kDigitsOfAHash) {
-        const uint32_t before = first == 0 ? 0 : digits >> (32 - first) << (32 - first);
-        const uint64_t flips = hashOfDigits(before, first, key);
-        // Node 1 is the tree's root, the children of a node are 2 node and 2 node + 1. So the node
-        // of the group's digit k is a one before the k digits above it.
-        const uint32_t group = digits << first >> (32 - kDigitsOfAHash);
-        const uint32_t inGroup = std::min(kDigitsOfAHash, count - first);
-        uint32_t flipsOfGroup = 0;
-        for (uint32_t k = 0; k < kDigitsOfAHash; ++k) {
-            const uint32_t node = 1u << k | group >> (kDigitsOfAHash - k);
-            flipsOfGroup |= uint32_t(flips >> node & (k < inGroup)) << (31 - k);
-        }
-        result ^= flipsOfGroup >> first;
+/// The flips of one group of digits, from the first bit on: `inGroup` digits that begin with digit
+/// number `first`. The hash of those before them has one bit for each way in which the group can
+/// begin.
+template <uint32_t first, uint32_t inGroup>
+uint32_t flipsOfGroup(uint32_t digits, uint64_t key) {
+    uint32_t before = 0;
+    if constexpr (first > 0) before = digits >> (32 - first) << (32 - first);
+    const uint64_t hash = hashOfDigits(before, first, key);
+    // Node 1 is the tree's root, the children of a node are 2 node and 2 node + 1. So the node of
+    // the group's digit k is a one before the k digits above it.
+    const uint32_t group = digits << first >> (32 - kDigitsOfAHash);
+    uint32_t flips = 0;
+    for (uint32_t k = 0; k < inGroup; ++k) {
+        const uint32_t node = 1u << k | group >> (kDigitsOfAHash - k);
+        flips |= uint32_t(hash >> node & 1) << (31 - k);
     }
-    return result;
+    return flips >> first;
+}
+
+/// Flips digit k of a number, its bit 31 - k, by a bit that the digits 0 to k - 1 choose. Groups
+/// depend on digits alone, not on flips of others, so that a processor works on all at once.
+template <uint32_t count>
+uint32_t flipped(uint32_t digits, uint64_t key) {
+    constexpr uint32_t kGroup = kDigitsOfAHash, kWhole = count / kGroup;
+    return [&]<uint32_t... group>(std::integer_sequence<uint32_t, group...>) {
+        uint32_t flips = (0u | ... | flipsOfGroup<group * kGroup, kGroup>(digits, key));
+        if constexpr (count % kGroup != 0)
+            flips |= flipsOfGroup<kWhole * kGroup, count % kGroup>(digits, key);
+        return digits ^ flips;
+    }
+    (std::make_integer_sequence<uint32_t, kWhole>{});
 }
 
 } // namespace
@@ -179,19 +230,21 @@ const SobolColumns& sobolColumns(size_t dimension) {
 
 std::array<uint32_t, kSobolDimensions> sobolPoint(uint32_t index) {
     std::array<uint32_t, kSobolDimensions> point{};
-    for (uint32_t k = 0; k < 32 && index >> k; ++k)
+    for (size_t byte = 0; byte < kPointsOfBytes.size(); ++byte) {
+        const auto& part = kPointsOfBytes[byte][index >> 8 * byte & 0xFF];
         for (size_t d = 0; d < kSobolDimensions; ++d)
-            point[d] ^= kColumns[d][k] & (0u - (index >> k & 1)); // no branch: it would be a coin
+            point[d] ^= part[d];
+    }
     return point;
 }
 
 double owenScrambled(uint32_t digits, uint64_t key) {
     const uint64_t rest = hashOfDigits(digits, 32, key) >> (64 - 21);
-    return double(uint64_t(flipped(digits, 32, key)) << 21 | rest) * 0x1p-53;
+    return double(uint64_t(flipped<32>(digits, key)) << 21 | rest) * 0x1p-53;
 }
 
 uint32_t owenShuffled(uint32_t index, uint64_t key) {
-    return flipped(index << 8, 24, key) >> 8;
+    return flipped<24>(index << 8, key) >> 8;
 }
 
 // --- Warps ---------------------------------------------------------------------------------------
