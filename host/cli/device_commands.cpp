@@ -32,7 +32,8 @@ void print(size_t index, const vulkan::DeviceDescription& d, bool chosen) {
     fmt::print("     memory: {} MiB; storage buffers up to {} MiB; texel buffers up to {} k rows\n",
                d.memory >> 20, limits.maxStorageBufferRange >> 20,
                limits.maxTexelBufferElements >> 10);
-    fmt::print("     subgroup: {} lanes; timestamps: {}\n", d.subgroupSize,
+    fmt::print("     subgroup: {} lanes{}; timestamps: {}\n", d.subgroupSize,
+               d.askedSubgroupSize > 0 ? fmt::format(", of kernels {}", d.askedSubgroupSize) : "",
                d.timestampBits ? "yes" : "no (the host's clock is used)");
     fmt::print("     floats: {}\n", inWords(d.floatControls));
     fmt::print("     uuid: {}\n", d.uuid);
@@ -122,6 +123,7 @@ const std::vector<Column>& columns() {
         {"shared", {"LDS size", "Shared Memory Size"}},
         {"instructions", {"Instructions", "Instruction Count"}},
         {"waves", {"Subgroups per SIMD", "Max Waves"}},
+        {"lanes", {"Subgroup Size"}},
     };
     return all;
 }

@@ -85,12 +85,16 @@ Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t
                                                  .pMapEntries = entries.data(),
                                                  .dataSize = constants.size_bytes(),
                                                  .pData = constants.data()};
+    VkPipelineShaderStageRequiredSubgroupSizeCreateInfoEXT lanes = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO_EXT,
+        .requiredSubgroupSize = device.description().askedSubgroupSize};
     const VkComputePipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .flags = device.keepsStatistics()
                      ? VkPipelineCreateFlags(VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR)
                      : 0,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .pNext = lanes.requiredSubgroupSize > 0 ? &lanes : nullptr,
                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                   .module = module,
                   .pName = "main",
@@ -238,7 +242,15 @@ std::vector<PipelineStatistic> statisticsOf(const Device& device, VkPipeline pip
     std::vector<VkPipelineExecutableStatisticKHR> found(
         count, {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR});
     check(get(device.handle(), &info, &count, found.data()), "ask for a kernel's statistics");
-    std::vector<PipelineStatistic> statistics;
+    const VkPipelineInfoKHR of = {.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR,
+                                  .pipeline = pipeline};
+    uint32_t one = 1;
+    VkPipelineExecutablePropertiesKHR properties = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR};
+    check(device.vk().vkGetPipelineExecutablePropertiesKHR(device.handle(), &of, &one, &properties),
+          "ask for a kernel's properties");
+    std::vector<PipelineStatistic> statistics = {
+        {"Subgroup Size", double(properties.subgroupSize)}};
     for (const VkPipelineExecutableStatisticKHR& s : found)
         statistics.push_back({s.name, valueOf(s)});
     return statistics;

@@ -50,6 +50,29 @@ bool importsPages(VkPhysicalDevice handle) {
            kPageBytes % host.minImportedHostPointerAlignment == 0;
 }
 
+/// AMD's GPUs since RDNA run a subgroup of 32 lanes in one pass and one of 64 in two, and their
+/// drivers choose 64: where paths differ from lane to lane, more lanes wait for each other.
+uint32_t subgroupSizeToAskFor(const DeviceDescription& d) {
+    constexpr uint32_t kWide = 64, kWanted = 32;
+    if (d.isCpu() || d.subgroupSize != kWide ||
+        !hasExtension(d.handle, VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME))
+        return 0;
+    VkPhysicalDeviceSubgroupSizeControlFeaturesEXT control = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                          .pNext = &control};
+    vkGetPhysicalDeviceFeatures2(d.handle, &features);
+    VkPhysicalDeviceSubgroupSizeControlPropertiesEXT sizes = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES_EXT};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &sizes};
+    vkGetPhysicalDeviceProperties2(d.handle, &properties);
+    const bool canAsk = control.subgroupSizeControl && sizes.minSubgroupSize <= kWanted &&
+                        sizes.maxSubgroupSize >= kWanted &&
+                        (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+    return canAsk ? kWanted : 0;
+}
+
 DeviceDescription describe(VkPhysicalDevice handle) {
     DeviceDescription d;
     d.handle = handle;
@@ -71,6 +94,7 @@ DeviceDescription describe(VkPhysicalDevice handle) {
     if (d.properties.apiVersion >= VK_API_VERSION_1_2) identity.pNext = &driver;
     vkGetPhysicalDeviceProperties2(handle, &properties);
     d.subgroupSize = subgroup.subgroupSize;
+    d.askedSubgroupSize = subgroupSizeToAskFor(d);
     d.largestAllocation = allocation.maxMemoryAllocationSize;
     for (uint8_t byte : identity.deviceUUID)
         d.uuid += fmt::format("{:02x}", byte);
@@ -154,8 +178,15 @@ Device::Device(const Instance&, const DeviceDescription& description,
                               "(VK_KHR_pipeline_executable_properties)");
         extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
     }
+    VkPhysicalDeviceSubgroupSizeControlFeaturesEXT sizes = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES_EXT,
+        .pNext = use == DeviceUse::Compiling ? &statistics : nullptr,
+        .subgroupSizeControl = VK_TRUE};
+    if (description.askedSubgroupSize > 0)
+        extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                                     .pNext = use == DeviceUse::Compiling ? &statistics : nullptr,
+                                     .pNext =
+                                         description.askedSubgroupSize > 0 ? &sizes : sizes.pNext,
                                      .queueCreateInfoCount = 1,
                                      .pQueueCreateInfos = &queue,
                                      .enabledExtensionCount = uint32_t(extensions.size()),

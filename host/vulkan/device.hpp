@@ -20,6 +20,8 @@ struct DeviceDescription {
     std::string uuid;   ///< tells twin devices apart
     std::string driver; ///< name and version, as the driver states them
     uint32_t subgroupSize = 0;
+    /// Lanes that kernels ask for in a subgroup, in place of the driver's choice; 0: they do not.
+    uint32_t askedSubgroupSize = 0;
     uint64_t memory = 0; ///< largest device-local heap, bytes; 0: a driver without hardware
     uint64_t largestAllocation = 0; ///< maxMemoryAllocationSize, bytes
     bool readsHostPages = false;    ///< shaders of a CPU can read pages of the host where they lie
