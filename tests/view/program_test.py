@@ -3,6 +3,7 @@
 program_test.py PROGRAM
 """
 
+import http.client
 import json
 import os
 import shlex
@@ -179,7 +180,7 @@ def watched_render(program, folder):
         while text["state"] != "done":
             try:
                 text = view.frame(text["number"])[0]
-            except OSError:  # it has ended
+            except (OSError, http.client.HTTPException):  # it has ended, perhaps in the middle of an answer
                 break
         view.process.stdout.read()
         check(view.process.wait() == 0, "the render ends well")
