@@ -1,6 +1,7 @@
 // The part of SceneBuilder that adds meshes and spheres.
 
 #include "scene/build/scene_builder.hpp"
+#include "scene/build/surface_mesh.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/model/placements.hpp"
 
@@ -15,20 +16,23 @@ ShapeId SceneBuilder::addMesh(std::string name, Mesh mesh) {
     else if (mesh.normals.empty() && !mesh.isFlat &&
              conventions_.vertexNormals == VertexNormals::FromFile)
         report_.assume("a mesh without normals is shaded flat");
-    shapes_.push_back({std::move(name), std::move(mesh), {}});
+    shapes_.push_back({std::move(name), std::move(mesh), {}, {}});
     return ShapeId(shapes_.size() - 1);
 }
 
 ShapeId SceneBuilder::addSphere(std::string name, double radius) {
-    shapes_.push_back({std::move(name), radius, {}});
+    shapes_.push_back({std::move(name), radius, {}, {}});
     return ShapeId(shapes_.size() - 1);
 }
 
 void SceneBuilder::place(const FilePlace& where, ShapeId id, const glm::dmat4& toWorld,
                          std::span<const uint32_t> materials, const std::string& instanceName) {
     Shape& shape = shapes_.at(size_t(id));
-    if (const double* radius = std::get_if<double>(&shape.form))
+    if (const double* radius = std::get_if<double>(&shape.form)) {
+        if (!staysSphere(*radius, toWorld))
+            return place(where, stretchedSphere(id), toWorld, materials, instanceName);
         return placeSphere(*radius, toWorld, materials.front(), instanceName, shape.drops);
+    }
     const Mesh& mesh = std::get<Mesh>(shape.form);
     copiedTriangles_ += triangleCount(mesh);
     if (copiedTriangles_ > kMostTriangles && !tooLargeAt_) tooLargeAt_ = where;
@@ -81,13 +85,32 @@ void SceneBuilder::placeMeshes() {
     meshes_.clear();
 }
 
+/// One without a radius or an extent in some direction is one, too, which is left out.
+bool SceneBuilder::staysSphere(double radius, const glm::dmat4& toWorld) const {
+    const glm::dvec3 scale = axisLengths(toWorld);
+    const bool hasExtent = radius > 0 && scale.x > 0 && scale.y > 0 && scale.z > 0;
+    return scene_.cglDialect || !hasExtent || isSimilarity(toWorld);
+}
+
+ShapeId SceneBuilder::stretchedSphere(ShapeId sphere) {
+    if (!shapes_.at(size_t(sphere)).stretched) {
+        const Shape& shape = shapes_.at(size_t(sphere));
+        Mesh mesh = sphereMesh(kSphereSides);
+        for (glm::dvec3& position : mesh.positions)
+            position *= std::get<double>(shape.form);
+        const ShapeId added = addMesh(shape.name, std::move(mesh));
+        shapes_.at(size_t(sphere)).stretched = added;
+    }
+    return *shapes_.at(size_t(sphere)).stretched;
+}
+
 void SceneBuilder::placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,
                                const std::string& instanceName, Drops& drops) {
     const glm::dvec3 scale = axisLengths(toWorld);
     const glm::dvec3 center = toWorld[3];
     const double worldRadius = radius * scale.x;
-    const bool fits =
-        float(worldRadius) > 0 && inRange(center + worldRadius) && inRange(center - worldRadius);
+    const bool fits = float(worldRadius) > 0 && scale.y > 0 && scale.z > 0 &&
+                      inRange(center + worldRadius) && inRange(center - worldRadius);
     if (!fits) return void(++drops.spheres);
     if (areUnequal(scale))
         report_.warn(fmt::format("sphere '{}': scaled unequally; it stays a sphere with the scale "

@@ -74,14 +74,15 @@ class SceneBuilder {
 
     /// `name`: of the shape in the file, for messages.
     ShapeId addMesh(std::string name, Mesh mesh);
-    /// A sphere about its own origin.
+    /// A sphere about its own origin. Where it is placed so that it is none, it is a polyhedron
+    /// (sphereMesh()); in the dialect CGL it stays one, of the radius that its x axis has, as
+    /// CS184's programs have it.
     ShapeId addSphere(std::string name, double radius);
 
     /// Adds a new instance of a shape, transformed to the world. `materials` has one number per
     /// part of the mesh; a sphere has one part. Triangles are turned as Winding says; those without
-    /// area or beyond the range of coordinates are left out and counted. A sphere's radius is
-    /// scaled as the matrix scales the x axis. Meshes are placed by finish(), which knows how often
-    /// each is shown.
+    /// area or beyond the range of coordinates are left out and counted. Meshes are placed by
+    /// finish(), which knows how often each is shown.
     void place(const FilePlace& where, ShapeId shape, const glm::dmat4& toWorld,
                std::span<const uint32_t> materials, const std::string& instanceName);
     /// The instance that was placed last is moved by an animation.
@@ -109,7 +110,8 @@ class SceneBuilder {
   private:
     struct Shape {
         std::string name;
-        std::variant<Mesh, double> form; ///< double: the radius of a sphere
+        std::variant<Mesh, double> form;  ///< double: the radius of a sphere
+        std::optional<ShapeId> stretched; ///< of a sphere: the mesh that is placed where it is none
         Drops drops;
     };
 
@@ -117,6 +119,8 @@ class SceneBuilder {
     void centreMeshes();
     void moveOrigin();
     void placeMeshes();
+    bool staysSphere(double radius, const glm::dmat4& toWorld) const;
+    ShapeId stretchedSphere(ShapeId sphere);
     void placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,
                      const std::string& instanceName, Drops& drops);
     void reportDrops(const Shape& shape);

@@ -2,7 +2,9 @@
 
 #include "scene/build/vectors.hpp"
 
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -36,6 +38,18 @@ Mesh gridMesh(uint32_t columns, uint32_t rows,
             add(a, c, d);
         }
     return mesh;
+}
+
+Mesh sphereMesh(uint32_t sides) {
+    constexpr double kPi = std::numbers::pi;
+    return gridMesh(sides, sides / 2, [](double s, double t) {
+        const double theta = kPi * (1 - t); // from the lower pole up
+        const double radius = t <= 0 || t >= 1 ? 0 : std::sin(theta);
+        const glm::dvec2 round =
+            s >= 1 ? glm::dvec2(1, 0) : glm::dvec2(std::cos(2 * kPi * s), std::sin(2 * kPi * s));
+        const glm::dvec3 p(radius * round, std::cos(theta));
+        return SurfacePoint{p, p, {s, 1 - t}};
+    });
 }
 
 void makeFlat(Mesh& mesh) {

@@ -19,6 +19,15 @@ struct SurfacePoint {
 Mesh gridMesh(uint32_t columns, uint32_t rows,
               const std::function<SurfacePoint(double, double)>& at);
 
+/// A polyhedron whose corners lie on the sphere of radius 1 about the origin, of `sides` sides
+/// around and half as many from pole to pole: between its corners it is off by 1 - cos(pi / sides)
+/// of the radius at most. Texture coordinates are those of Mitsuba: round the z axis, and from its
+/// far end.
+Mesh sphereMesh(uint32_t sides);
+
+/// Sides of what is round by nature: 7.5e-5 of the radius is less than a pixel shows.
+inline constexpr uint32_t kSphereSides = 256;
+
 /// Drops the normals: the mesh is shaded flat.
 void makeFlat(Mesh& mesh);
 

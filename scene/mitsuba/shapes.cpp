@@ -163,7 +163,7 @@ const std::string& Shapes::usableAttribute(const Plugin& shape, const std::strin
 }
 
 build::Mesh Shapes::solidOf(const Plugin& shape) {
-    if (shape.type == "sphere") return sphereMesh();
+    if (shape.type == "sphere") return build::sphereMesh(build::kSphereSides);
     if (shape.type == "rectangle") return rectangleMesh();
     if (shape.type == "cube") return cubeMesh();
     if (shape.type == "disk") return diskMesh();

@@ -62,15 +62,6 @@ build::Mesh diskMesh() {
     return mesh;
 }
 
-build::Mesh sphereMesh() {
-    return build::gridMesh(kSides, kSides / 2, [](double s, double t) {
-        const double theta = kPi * (1 - t); // from the lower pole up
-        const double radius = t <= 0 || t >= 1 ? 0 : std::sin(theta);
-        const glm::dvec3 p(radius * direction(s), std::cos(theta));
-        return build::SurfacePoint{p, p, {s, 1 - t}};
-    });
-}
-
 build::Mesh cylinderMesh(const glm::dvec3& from, const glm::dvec3& to, double radius) {
     const glm::dvec3 axis = glm::normalize(to - from);
     const glm::dvec3 across = std::abs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);

@@ -126,21 +126,58 @@ TEST(SceneBuilder, InstancesOfAShapeAreCountedTogether) {
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("'line': 3 of 3 triangles left out")));
 }
 
-TEST(SceneBuilder, SpheresScaleWithTheirXAxis) {
+TEST(SceneBuilder, SpheresStaySpheresWhereNothingStretchesThem) {
     SceneBuilder builder("scene.xyz", {});
     const uint32_t materials[] = {builder.defaultMaterial()};
     const ShapeId sphere = builder.addSphere("ball", 2);
     builder.place(kHere, sphere, glm::translate(scaledBy(3, 3, 3), glm::dvec3(1, 0, 0)), materials,
                   "even");
-    builder.place(kHere, sphere, scaledBy(3, 1, 1), materials, "uneven");
     builder.place(kHere, sphere, scaledBy(0, 1, 1), materials, "flat");
+    builder.place(kHere, sphere, scaledBy(1, 0, 1), materials, "flat, too");
     const Scene scene = builder.finish();
-    ASSERT_EQ(scene.spheres.size(), 2u);
+    ASSERT_EQ(scene.spheres.size(), 1u);
     EXPECT_EQ(scene.spheres[0].radius, 6);
     EXPECT_EQ(scene.spheres[0].center, glm::vec3(3, 0, 0));
-    EXPECT_EQ(scene.instances[scene.spheres[1].instance], "uneven");
+    EXPECT_TRUE(scene.triangles.empty());
+    EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("'ball': 2 left out")));
+}
+
+/// Stretched or sheared, they are polyhedra whose corners are the sphere's, and whose normals point
+/// away from it.
+TEST(SceneBuilder, StretchedSpheresArePolyhedra) {
+    for (const glm::dmat4& matrix : {scaledBy(3, 1, 1), glm::dmat4({1, 0, 0, 0}, {0.5, 1, 0, 0},
+                                                                   {0, 0, 1, 0}, {4, 5, 6, 1})}) {
+        SceneBuilder builder("scene.xyz", {});
+        const uint32_t materials[] = {builder.defaultMaterial()};
+        const ShapeId sphere = builder.addSphere("ball", 2);
+        builder.place(kHere, sphere, matrix, materials, "egg");
+        const Scene scene = builder.finish();
+        EXPECT_TRUE(scene.spheres.empty());
+        EXPECT_TRUE(scene.report.warnings.empty());
+        ASSERT_FALSE(scene.triangles.empty());
+        EXPECT_EQ(scene.instances.at(scene.triangles[0].instance), "egg");
+        const glm::dmat4 toSphere = glm::inverse(matrix);
+        for (const Triangle& t : scene.triangles)
+            for (int i = 0; i < 3; ++i) {
+                const glm::dvec3 p = glm::dvec3(scene.positions[t.corner[i]]) + scene.origin;
+                const glm::dvec3 onSphere = toSphere * glm::dvec4(p, 1);
+                ASSERT_NEAR(glm::length(onSphere), 2, 1e-5);
+                ASSERT_GT(glm::dot(glm::dvec3(scene.normals[t.normals[i]]),
+                                   glm::transpose(glm::dmat3(toSphere)) * onSphere),
+                          0);
+            }
+    }
+}
+
+TEST(SceneBuilder, SpheresOfTheDialectCglScaleWithTheirXAxis) {
+    SceneBuilder builder("scene.xyz", {});
+    builder.markCglDialect();
+    const uint32_t materials[] = {builder.defaultMaterial()};
+    builder.place(kHere, builder.addSphere("ball", 2), scaledBy(3, 1, 1), materials, "uneven");
+    const Scene scene = builder.finish();
+    ASSERT_EQ(scene.spheres.size(), 1u);
+    EXPECT_EQ(scene.spheres[0].radius, 6);
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("'uneven': scaled unequally")));
-    EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("'ball': 1 left out")));
 }
 
 TEST(SceneBuilder, MaterialsAreReadOnceAndWhenUsed) {
