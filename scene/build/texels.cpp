@@ -33,6 +33,9 @@ glm::dvec4 arranged(const glm::dvec3& value, Layout layout) {
     case Layout::Blue:
         texel.z = luminance(value);
         break;
+    case Layout::GreenAndBlue:
+        texel.y = texel.z = luminance(value);
+        break;
     }
     return texel;
 }

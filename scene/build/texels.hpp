@@ -11,7 +11,7 @@ namespace stromboli::build {
 
 /// Which numbers of a texel a picture's value becomes; the others are 1. Grey: red, in the
 /// precision of the file where that has no colours.
-enum class Layout { Color, Alpha, Red, Green, Blue, Grey };
+enum class Layout { Color, Alpha, Red, Green, Blue, GreenAndBlue, Grey };
 
 /// Adds a texel that holds a value where the layout says, of RgbaHalf.
 void appendTexel(std::vector<uint32_t>& words, const glm::dvec3& value, Layout layout);

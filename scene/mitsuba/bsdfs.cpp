@@ -26,7 +26,7 @@ Surface dielectric(SurfaceMaker& maker) {
     m.ior = float(refractiveIndex(maker.plugin, "int_ior", "bk7") /
                   refractiveIndex(maker.plugin, "ext_ior", "air"));
     m.kind = type == "thindielectric" ? MaterialKind::ThinDielectric : MaterialKind::Dielectric;
-    if (type == "roughdielectric") maker.facets();
+    if (type == "roughdielectric") maker.facets(true);
     // A picture needs facets: a smooth interface is glass without textures.
     const bool mayHavePictures = type != "dielectric";
     if (mayHavePictures) {
@@ -47,7 +47,7 @@ Surface conductor(SurfaceMaker& maker) {
     const MetalIndex metal = metalIndex(maker.plugin);
     m.eta = metal.eta;
     m.k = metal.k;
-    if (maker.plugin.type == "roughconductor") maker.facets();
+    if (maker.plugin.type == "roughconductor") maker.facets(true);
     maker.color("specular_reflectance", glm::dvec3(1), m.reflectance, TextureSlot::BaseColor);
     return maker.done();
 }
@@ -58,7 +58,7 @@ Surface plastic(SurfaceMaker& maker) {
     m.ior = float(refractiveIndex(maker.plugin, "int_ior", "polypropylene") /
                   refractiveIndex(maker.plugin, "ext_ior", "air"));
     m.isNonlinear = maker.plugin.flag("nonlinear").value_or(false);
-    if (maker.plugin.type == "roughplastic") maker.facets();
+    if (maker.plugin.type == "roughplastic") maker.facets(false); // a table of one alpha
     m.internalViews = 64;
     maker.color("diffuse_reflectance", glm::dvec3(0.5), m.albedo, TextureSlot::BaseColor);
     maker.color("specular_reflectance", glm::dvec3(1), m.reflectance, TextureSlot::SpecularColor);

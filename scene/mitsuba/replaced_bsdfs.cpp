@@ -73,7 +73,7 @@ Surface ward(Context& context, Textures& textures, const Plugin& plugin) {
     say(plugin, "Beckmann's facets of the same alpha, over a diffuse base");
     plugin.skip("variant");
     SurfaceMaker maker(plugin, textures, context);
-    maker.facets();
+    maker.facets(false);
     return sumOfLobes(context, textures, plugin, maker.material.facets);
 }
 
@@ -136,7 +136,7 @@ Surface coating(Context& context, Textures& textures, const Plugin& plugin) {
     own.ior = float(refractiveIndex(plugin, "int_ior", "bk7") /
                     refractiveIndex(plugin, "ext_ior", "air"));
     own.facets.alpha = glm::vec2(0);
-    if (plugin.type == "roughcoating") maker.facets();
+    if (plugin.type == "roughcoating") maker.facets(false);
     maker.plainColor("specular_reflectance", glm::dvec3(1), own.reflectance);
     const double thickness = plugin.number("thickness", 0).value_or(1);
     const glm::dvec3 absorbed =

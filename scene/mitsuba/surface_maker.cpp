@@ -38,12 +38,13 @@ void SurfaceMaker::sayMean(const char* name) {
                    "its mean");
 }
 
-double SurfaceMaker::alpha(const char* name, double otherwise) {
+float SurfaceMaker::alpha(const char* name, double otherwise, std::optional<Layout> layout) {
     constexpr double kMost = 1e3;
-    if (!plugin.child(name)) return plugin.number(name, 0, kMost).value_or(otherwise);
+    if (layout) return fraction(name, otherwise, TextureSlot::MetallicRoughness, *layout, kMost);
+    if (!plugin.child(name)) return float(plugin.number(name, 0, kMost).value_or(otherwise));
     const Shade shade = textures_.shade(plugin, name, ColorOf::Reflectance, glm::dvec3(otherwise));
     if (shade.texture) sayMean(name);
-    return std::clamp(textures_.meanOf(shade).x, 0.0, kMost);
+    return float(std::clamp(textures_.meanOf(shade).x, 0.0, kMost));
 }
 
 float SurfaceMaker::fraction(const char* name, double otherwise, TextureSlot slot, Layout layout,
@@ -60,7 +61,7 @@ float SurfaceMaker::fraction(const char* name, double otherwise, TextureSlot slo
     return float(shade.color.x);
 }
 
-void SurfaceMaker::facets() {
+void SurfaceMaker::facets(bool mayHaveTextures) {
     const std::string name = inSmallLetters(plugin.text("distribution").value_or("beckmann"));
     if (name != "beckmann" && name != "ggx")
         plugin.replace(build::Shortfall::Model,
@@ -69,8 +70,14 @@ void SurfaceMaker::facets() {
     material.facets.distribution =
         name == "ggx" ? FacetDistribution::Ggx : FacetDistribution::Beckmann;
     material.facets.masking = FacetMasking::Separable;
-    const double both = alpha("alpha", 0.1);
-    material.facets.alpha = {float(alpha("alpha_u", both)), float(alpha("alpha_v", both))};
+    // The slot has alpha along the tangent in green, and across it in blue.
+    const bool hasAxes = plugin.child("alpha_u") || plugin.child("alpha_v");
+    const auto layout = [&](Layout where) {
+        return mayHaveTextures ? std::optional(where) : std::nullopt;
+    };
+    const float both = alpha("alpha", 0.1, hasAxes ? std::nullopt : layout(Layout::GreenAndBlue));
+    material.facets.alpha = {alpha("alpha_u", both, layout(Layout::Green)),
+                             alpha("alpha_v", both, layout(Layout::Blue))};
     plugin.skip("sample_visible");
 }
 

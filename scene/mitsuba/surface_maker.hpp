@@ -2,6 +2,8 @@
 
 #include "scene/mitsuba/bsdfs.hpp"
 
+#include <optional>
+
 namespace stromboli::mitsuba {
 
 /// Fills in the material of one BSDF from its parameters.
@@ -24,16 +26,17 @@ class SurfaceMaker {
     /// A number in [0, most], or a texture of it in that slot, where `layout` puts it.
     float fraction(const char* name, double otherwise, TextureSlot slot, Layout layout,
                    double most = 1);
-    /// The distribution and the roughness of microfacets.
-    void facets();
+    /// The distribution and the roughness of microfacets. Where these may not have textures, the
+    /// mean of one is taken.
+    void facets(bool mayHaveTextures);
     build::Report& report() { return context_.report(); }
 
     /// Says which parameters were not read.
     Surface done();
 
   private:
-    /// The roughness of facets, a number or the mean of a texture.
-    double alpha(const char* name, double otherwise);
+    /// The roughness of facets: a number, a texture whose values `layout` puts, or its mean.
+    float alpha(const char* name, double otherwise, std::optional<Layout> layout);
     void sayMean(const char* name);
 
     Textures& textures_;

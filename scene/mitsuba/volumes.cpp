@@ -66,7 +66,10 @@ Volume readGrid(const Context& context, const Plugin& volume) {
                         glm::scale(glm::dmat4(1.0), read.high - read.low);
     result.grid = std::move(read.grid);
     result.colors = std::move(read.colors);
-    for (const char* unused : {"filter_type", "wrap_mode", "raw", "accel", "send_data"})
+    if (inSmallLetters(volume.text("filter_type").value_or("trilinear")) == "nearest")
+        volume.replace(build::Shortfall::Model, "'filter_type' is 'nearest', expected trilinear",
+                       "trilinear");
+    for (const char* unused : {"wrap_mode", "raw", "accel", "send_data"})
         volume.skip(unused);
     return result;
 }

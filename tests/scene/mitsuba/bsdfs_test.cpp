@@ -1,9 +1,13 @@
 // What surfaces are made of.
 
+#include "scene/build/texels.hpp"
 #include "scene/model/surface_lookup.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <fmt/format.h>
+
+#include <set>
+#include <utility>
 
 namespace stromboli::test {
 namespace {
@@ -93,6 +97,43 @@ TEST(MitsubaBsdfs, Conductors) {
                                           "value=\"Xy\"/></bsdf>")),
                 AllOf(HasSubstr("is 'Xy', expected one of none, Ag, Al, Au, Cu, a-C"),
                       HasSubstr("W, or eta and k")));
+}
+
+/// Alpha along the tangent is in green, and across it in blue.
+TEST(MitsubaBsdfs, RoughnessMayBeATexture) {
+    const auto board = [](const std::string& name, const std::string& low) {
+        return "<texture name=\"" + name +
+               "\" type=\"checkerboard\"><float name=\"color0\" value=\"" + low +
+               "\"/><float name=\"color1\" value=\"0.5\"/></texture>";
+    };
+    for (const char* type : {"roughconductor", "roughdielectric"}) {
+        const auto roughSceneOf = [&](const std::string& inside) {
+            return sceneOf(fmt::format("<bsdf type=\"{}\">{}</bsdf>", type, inside));
+        };
+        const auto usesOf = [](const Scene& scene) {
+            return scene.materials.at(scene.triangles.at(0).material).textures;
+        };
+        const auto texelsOf = [&](const Scene& scene, size_t use) {
+            const TextureImage& image =
+                scene.images.at(scene.textures.at(usesOf(scene).at(use).texture).image);
+            std::set<std::pair<float, float>> texels; // of green and blue
+            for (size_t i = 0; i < size_t(image.width) * image.height; ++i) {
+                const glm::dvec3 c = build::colorAt(image, i, false);
+                texels.emplace(float(c.y), float(c.z));
+            }
+            return texels;
+        };
+        const Scene both = roughSceneOf(board("alpha", "0.25"));
+        EXPECT_TRUE(both.report.warnings.empty());
+        ASSERT_EQ(usesOf(both).size(), 1u);
+        EXPECT_EQ(usesOf(both)[0].slot, TextureSlot::MetallicRoughness);
+        using Texels = std::set<std::pair<float, float>>;
+        EXPECT_EQ(texelsOf(both, 0), (Texels{{0.25f, 0.25f}, {0.5f, 0.5f}}));
+        const Scene apart = roughSceneOf(board("alpha_u", "0.25") + board("alpha_v", "0.125"));
+        ASSERT_EQ(usesOf(apart).size(), 2u);
+        EXPECT_EQ(texelsOf(apart, 0), (Texels{{0.25f, 1}, {0.5f, 1}}));
+        EXPECT_EQ(texelsOf(apart, 1), (Texels{{1, 0.125f}, {1, 0.5f}}));
+    }
 }
 
 TEST(MitsubaBsdfs, Plastics) {

@@ -208,7 +208,7 @@ TEST(MitsubaForgives, MixturesOfMixtures) {
 TEST(MitsubaForgives, PicturesAsNumbers) {
     const Scene scene = forgiven(
         ballOf(
-            "<bsdf type=\"roughconductor\"><texture name=\"alpha\" type=\"checkerboard\"/></bsdf>"),
+            "<bsdf type=\"roughplastic\"><texture name=\"alpha\" type=\"checkerboard\"/></bsdf>"),
         "'alpha' is a texture", "its mean");
     EXPECT_NEAR(scene.materials.at(1).facets.alpha.x, 0.3, 1e-3);
     const Scene glass =

@@ -189,6 +189,12 @@ TEST(MitsubaMedia, HaveGrids) {
     ASSERT_TRUE(m.density);
     expectColors(m, glm::vec3(0.5f), glm::vec3(0.5f));
     EXPECT_EQ(m.density->place({2, 0.5, 0.5}), glm::dvec3(0.5));
+    const Scene blocks = loadInside(
+        ball("<medium name=\"interior\" type=\"heterogeneous\"><volume name=\"sigma_t\" " + volume +
+                 "<string name=\"filter_type\" value=\"nearest\"/></volume></medium>",
+             "<bsdf type=\"null\"/>"));
+    EXPECT_THAT(blocks.report.forgiven,
+                Contains(HasSubstr("'filter_type' is 'nearest', expected trilinear")));
     // Mitsuba 0.x: the file's box.
     const Scene old = loadOld("<shape type=\"sphere\"><medium name=\"interior\" "
                               "type=\"heterogeneous\"><volume name=\"density\" " +
