@@ -50,7 +50,11 @@ void placeLight(const aiLight& file, const glm::dmat4& toWorld, double unit,
     }
     light.constantAttenuation = file.mAttenuationConstant;
     light.linearAttenuation = float(file.mAttenuationLinear / unit);
-    light.quadraticAttenuation = float(file.mAttenuationQuadratic / (unit * unit));
+    // Of FBX files Assimp makes it from where a modeller begins to draw the decay, which is no part
+    // of it: as the inverse of the square, and of the distance, in metres.
+    const bool isSquare = light.constantAttenuation == 0 && file.mAttenuationLinear == 0 &&
+                          file.mAttenuationQuadratic > 0;
+    light.quadraticAttenuation = isSquare ? 1 : float(file.mAttenuationQuadratic / (unit * unit));
     const bool fades = light.constantAttenuation > 0 || light.linearAttenuation > 0 ||
                        light.quadraticAttenuation > 0;
     if (!fades) light.constantAttenuation = 1;
@@ -63,10 +67,11 @@ void placeCamera(const aiCamera& file, const glm::dmat4& toWorld, build::SceneBu
     camera.name = file.mName.C_Str();
     const bool isOrthographic = file.mOrthographicWidth > 0;
     camera.projection = isOrthographic ? Projection::Orthographic : Projection::Perspective;
-    // Assimp's angle is from the middle of the view to its border.
+    // Assimp's documents have the angle from the middle of the view to its border; its readers
+    // (FBX, BLEND, 3DS, ASE) give that between both borders, as their formats do.
     camera.halfWidth = isOrthographic
                            ? double(file.mOrthographicWidth)
-                           : std::tan(std::clamp(double(file.mHorizontalFOV), 1e-3, 1.5));
+                           : std::tan(std::clamp(double(file.mHorizontalFOV) / 2, 1e-3, 1.5));
     if (file.mAspect > 0) camera.halfHeight = *camera.halfWidth / double(file.mAspect);
     builder.placeCamera(camera, toWorld * lookingAlong(vectorOf(file.mPosition),
                                                        vectorOf(file.mLookAt), vectorOf(file.mUp)));

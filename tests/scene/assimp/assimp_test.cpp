@@ -87,6 +87,78 @@ TEST_F(AssimpFiles, StlHasItsTriangles) {
     EXPECT_TRUE(scene->cameras.empty());
 }
 
+/// Its camera sees 90 degrees between the borders of its picture, and its lamp fades by the square
+/// of the distance, which a modeller draws from 25 m on.
+const char* const kFbx = R"(; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+ FBXHeaderVersion: 1003
+ FBXVersion: 7400
+}
+GlobalSettings:  {
+ Version: 1000
+ Properties70:  {
+  P: "UnitScaleFactor", "double", "Number", "",100
+ }
+}
+Objects:  {
+ Geometry: 1, "Geometry::plane", "Mesh" {
+  Vertices: *9 {
+   a: -1,-1,-2,1,-1,-2,0,1,-2
+  }
+  PolygonVertexIndex: *3 {
+   a: 0,1,-3
+  }
+  GeometryVersion: 124
+ }
+ Model: 2, "Model::plane", "Mesh" {
+  Version: 232
+ }
+ NodeAttribute: 3, "NodeAttribute::cam", "Camera" {
+  TypeFlags: "Camera"
+  Properties70:  {
+   P: "FieldOfView", "FieldOfView", "", "A",90
+  }
+ }
+ Model: 4, "Model::cam", "Camera" {
+  Version: 232
+ }
+ NodeAttribute: 5, "NodeAttribute::lamp", "Light" {
+  TypeFlags: "Light"
+  Properties70:  {
+   P: "LightType", "enum", "", "",0
+   P: "Color", "Color", "", "A",1,1,1
+   P: "Intensity", "Number", "", "A",300
+   P: "DecayType", "enum", "", "",2
+   P: "DecayStart", "double", "Number", "",2500
+  }
+ }
+ Model: 6, "Model::lamp", "Light" {
+  Version: 232
+ }
+}
+Connections:  {
+ C: "OO",2,0
+ C: "OO",1,2
+ C: "OO",4,0
+ C: "OO",3,4
+ C: "OO",6,0
+ C: "OO",5,6
+}
+)";
+
+TEST_F(AssimpFiles, FbxHasItsAnglesAndDecays) {
+    const std::optional<Scene> scene = read(write("a.fbx", kFbx));
+    if (!scene) GTEST_SKIP() << "Assimp is not installed";
+    ASSERT_EQ(scene->cameras.size(), 1u);
+    ASSERT_TRUE(scene->cameras[0].halfWidth);
+    EXPECT_NEAR(*scene->cameras[0].halfWidth, 1, 1e-6);
+    ASSERT_EQ(scene->lights.size(), 1u);
+    const Light& lamp = scene->lights[0];
+    EXPECT_EQ(lamp.color, glm::vec3(3));
+    EXPECT_EQ(lamp.constantAttenuation, 0);
+    EXPECT_EQ(lamp.quadraticAttenuation, 1);
+}
+
 TEST_F(AssimpFiles, StlInCapitalsHasItsTrianglesToo) {
     std::string text = kStl;
     std::ranges::transform(text, text.begin(),
