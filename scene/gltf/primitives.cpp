@@ -47,17 +47,18 @@ class PrimitiveReader {
     }
 
   private:
-    /// An attribute by its name; nothing if it is not there.
-    std::optional<Values> values(const Element& attributes, const std::string& name, size_t width) {
+    /// An attribute by its name; nothing if it is not there. Of a packed mesh all but morph
+    /// targets' may be packed.
+    std::optional<Values> values(const Element& attributes, const std::string& name, size_t width,
+                                 bool mayBePacked = true) {
         const std::optional<size_t> accessor =
             attributes.index(name, context_.document.size("accessors"));
         if (!accessor) return std::nullopt;
-        Values found;
-        const auto packed = unpacked_.attributes.find(name);
-        if (packed != unpacked_.attributes.end())
-            found = packed->second;
-        else
-            found = readValues(context_.document, *accessor, width);
+        const auto packed =
+            mayBePacked ? unpacked_.attributes.find(name) : unpacked_.attributes.end();
+        Values found = packed != unpacked_.attributes.end()
+                           ? packed->second
+                           : readValues(context_.document, *accessor, width);
         if (width != 0 && found.width != width)
             attributes.fail(name, fmt::format("has {} numbers, expected {}", found.width, width));
         if (vertexCount_ && found.count != *vertexCount_)
@@ -76,10 +77,10 @@ class PrimitiveReader {
         }
     }
 
-    std::optional<Values> valuesOr(const Element& attributes, const std::string& name,
-                                   size_t width) {
+    std::optional<Values> valuesOr(const Element& attributes, const std::string& name, size_t width,
+                                   bool mayBePacked = true) {
         std::optional<Values> found;
-        forgiveAttribute([&] { found = values(attributes, name, width); });
+        forgiveAttribute([&] { found = values(attributes, name, width, mayBePacked); });
         return found;
     }
 
@@ -104,9 +105,9 @@ class PrimitiveReader {
 
     void readTargets(Primitive& p) {
         for (const Element& target : at_.items("targets"))
-            p.targets.push_back({valuesOr(target.strictly(), "POSITION", 3),
-                                 valuesOr(target.strictly(), "NORMAL", 3),
-                                 valuesOr(target.strictly(), "TANGENT", 3)});
+            p.targets.push_back({valuesOr(target.strictly(), "POSITION", 3, false),
+                                 valuesOr(target.strictly(), "NORMAL", 3, false),
+                                 valuesOr(target.strictly(), "TANGENT", 3, false)});
     }
 
     std::vector<uint32_t> indices() {

@@ -240,6 +240,14 @@ TEST(GltfCompression, Draco) {
     const Scene scene = load(g);
     ASSERT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(scene.bounds().hi, glm::vec3(1, 1, 0));
+    // Morph targets lie beside what is packed, in its order, with the names of its attributes.
+    const size_t moved = g.addAccessor<float>({0, 0, 2, 0, 0, 2, 0, 0, 2}, "VEC3");
+    g.arrays["meshes"][0] = fmt::format(
+        R"({{"weights": [0.5], "primitives": [{{"attributes": {{"POSITION": 0}}, "targets": [{{"POSITION": {}}}],
+        "extensions": {{"KHR_draco_mesh_compression": {{"bufferView": {}, "attributes": {{"POSITION": 0}}}}}}}}]}})",
+        moved, view);
+    EXPECT_EQ(load(g).bounds().lo, glm::vec3(0, 0, 1));
+    EXPECT_EQ(load(g).bounds().hi, glm::vec3(1, 1, 1));
     g.arrays["meshes"][0] = fmt::format(fmt::runtime(primitive), view, 77);
     EXPECT_THAT(problem(g), HasSubstr("names attribute 77, which is not there"));
     g.arrays["meshes"][0] = fmt::format(fmt::runtime(primitive), 0, 0);
