@@ -145,7 +145,8 @@ void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld, boo
 
 void SceneBuilder::lightTheDark() {
     const bool hasGeometry = !scene_.triangles.empty() || !scene_.spheres.empty();
-    if (!conventions_.defaultLight || !hasGeometry || lightsItsSurfaces(scene_)) return;
+    const bool isLit = picturesAreLamps_ ? shines(scene_) : lightsItsSurfaces(scene_);
+    if (!conventions_.defaultLight || !hasGeometry || isLit) return;
     // Before the light is there.
     const char* why = shines(scene_) ? "the pictures of emission are too weak to light the surfaces"
                                      : "the file has no light";

@@ -42,6 +42,10 @@ class SceneBuilder {
     /// The file has elements of the dialect CGL (Scene::cglDialect).
     void markCglDialect() { scene_.cglDialect = true; }
 
+    /// Pictures of emission are lamps, as the file says, and no ornaments: however weak they are,
+    /// the scene gets no default light beside them.
+    void picturesOfEmissionAreLamps() { picturesAreLamps_ = true; }
+
     /// Light from all around.
     void setEnvironment(Environment environment) { scene_.environment = std::move(environment); }
     /// A rectangle in the world through which the sky's light comes.
@@ -138,6 +142,7 @@ class SceneBuilder {
     std::optional<FilePlace> tooLargeAt_;
     uint64_t copiedTriangles_ = 0; ///< if each use of a mesh were a copy
     std::optional<uint32_t> defaultMaterial_;
+    bool picturesAreLamps_ = false;
 };
 
 } // namespace stromboli::build

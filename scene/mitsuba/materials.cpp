@@ -156,6 +156,7 @@ void Materials::addEmission(const Plugin& emitter, Material& material) {
     if (radiance.texture) {
         TextureUse use = *radiance.texture;
         use.slot = TextureSlot::Emission;
+        context_.builder.picturesOfEmissionAreLamps();
         material.textures.push_back(use);
     }
     emitter.skip("sampling_weight");

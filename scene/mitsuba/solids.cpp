@@ -2,6 +2,7 @@
 
 #include "scene/build/surface_mesh.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -27,29 +28,31 @@ build::Mesh rectangleMesh() {
 }
 
 build::Mesh cubeMesh() {
+    // Where Mitsuba has the texture coordinates (0, 0), (1, 0) and (0, 1) of each face.
+    using Corners = std::array<glm::dvec3, 3>;
+    constexpr std::array<Corners, 6> kFaces = {{{{{-1, -1, -1}, {-1, -1, 1}, {1, -1, -1}}},
+                                                {{{1, 1, 1}, {-1, 1, 1}, {1, 1, -1}}},
+                                                {{{1, -1, 1}, {1, 1, 1}, {1, -1, -1}}},
+                                                {{{-1, -1, 1}, {-1, 1, 1}, {1, -1, 1}}},
+                                                {{{-1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}},
+                                                {{{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}}}};
     build::Mesh cube;
     cube.parts.emplace_back();
-    for (const int axis : {0, 1, 2})
-        for (const double side : {-1.0, 1.0}) {
-            const build::Mesh face = build::gridMesh(1, 1, [&](double s, double t) {
-                build::SurfacePoint v;
-                v.position[axis] = side;
-                v.position[(axis + 1) % 3] = side * (2 * s - 1);
-                v.position[(axis + 2) % 3] = 2 * t - 1;
-                v.uv = {s, t};
-                return v;
-            });
-            const auto first = uint32_t(cube.positions.size());
-            cube.positions.insert(cube.positions.end(), face.positions.begin(),
-                                  face.positions.end());
-            cube.attributes.insert(cube.attributes.end(), face.attributes.begin(),
-                                   face.attributes.end());
-            for (build::MeshTriangle triangle : face.parts.front()) {
-                for (build::Corner& corner : triangle)
-                    corner = {corner.position + first, kNoNormals, corner.attributes + first};
-                cube.parts.front().push_back(triangle);
-            }
+    for (const Corners& c : kFaces) {
+        // Seen from outside u, v run clockwise.
+        const build::Mesh face = build::gridMesh(1, 1, [&](double v, double u) {
+            return build::SurfacePoint{c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]), {}, {u, v}};
+        });
+        const auto first = uint32_t(cube.positions.size());
+        cube.positions.insert(cube.positions.end(), face.positions.begin(), face.positions.end());
+        cube.attributes.insert(cube.attributes.end(), face.attributes.begin(),
+                               face.attributes.end());
+        for (build::MeshTriangle triangle : face.parts.front()) {
+            for (build::Corner& corner : triangle)
+                corner = {corner.position + first, kNoNormals, corner.attributes + first};
+            cube.parts.front().push_back(triangle);
         }
+    }
     cube.isFlat = true;
     return cube;
 }
@@ -63,9 +66,11 @@ build::Mesh diskMesh() {
 }
 
 build::Mesh cylinderMesh(const glm::dvec3& from, const glm::dvec3& to, double radius) {
+    // Mitsuba's frame, by which texture coordinates begin: Duff et al., "Building an Orthonormal
+    // Basis, Revisited" (JCGT 2017).
     const glm::dvec3 axis = glm::normalize(to - from);
-    const glm::dvec3 across = std::abs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 x = glm::normalize(across - axis * glm::dot(axis, across));
+    const double sign = std::copysign(1, axis.z), a = -1 / (sign + axis.z);
+    const glm::dvec3 x(1 + sign * axis.x * axis.x * a, sign * axis.x * axis.y * a, -sign * axis.x);
     const glm::dvec3 y = glm::cross(axis, x);
     return build::gridMesh(kSides, 1, [&](double s, double t) {
         const glm::dvec2 d = direction(s);

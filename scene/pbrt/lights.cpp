@@ -255,6 +255,7 @@ Emission Lights::emission(const std::string& kind, const Parameters& p, double a
         if (const auto texture = textures_.picture(p, *file, false, Wrap::Clamp)) {
             TextureUse use;
             use.slot = TextureSlot::Emission;
+            context_.builder.picturesOfEmissionAreLamps();
             use.texture = *texture;
             use.vRow = glm::vec3(0, -1, 1);
             emission.picture = use;

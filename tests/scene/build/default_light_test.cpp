@@ -49,7 +49,7 @@ TEST(DefaultLight, IsASkyForScenesWhereNothingShines) {
 }
 
 /// A square of which a picture emits, a texel in four white.
-Scene withPictureOfEmission(float emission) {
+Scene withPictureOfEmission(float emission, bool isLamp = false) {
     SceneBuilder builder("scene.xyz", {});
     TextureImage image;
     image.width = image.height = 2;
@@ -73,6 +73,7 @@ Scene withPictureOfEmission(float emission) {
     mesh.parts = {{{corner(0), corner(1), corner(2)}, {corner(0), corner(2), corner(3)}}};
     builder.place({"scene.xyz", 1, "square"}, builder.addMesh("square", mesh), glm::dmat4(1),
                   materials, "square");
+    if (isLamp) builder.picturesOfEmissionAreLamps();
     return builder.finish();
 }
 
@@ -81,6 +82,8 @@ TEST(DefaultLight, IsForScenesWhosePicturesOfEmissionLightNothing) {
     EXPECT_EQ(weak.lights.size(), 1u);
     EXPECT_THAT(weak.report.assumed, Contains(HasSubstr("too weak to light the surfaces")));
     EXPECT_TRUE(withPictureOfEmission(10).lights.empty());
+    EXPECT_TRUE(withPictureOfEmission(0.01f, true).lights.empty());
+    EXPECT_EQ(withPictureOfEmission(0, true).lights.size(), 1u);
 }
 
 TEST(DefaultLight, IsNotForScenesThatHaveLight) {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +60,49 @@ TEST(MitsubaShapes, FaceOutwards) {
               glm::vec3(0, 0, 1));
     const Scene flipped = loadShape("rectangle", "<boolean name=\"flip_normals\" value=\"true\"/>");
     EXPECT_EQ(flipped.geometricNormal(flipped.triangles[0]), glm::vec3(0, 0, -1));
+}
+
+/// As Mitsuba 3.9 has them in 'vertex_positions' and 'vertex_texcoords'.
+TEST(MitsubaShapes, CubesHaveMitsubasTextureCoordinates) {
+    struct Face {
+        glm::vec3 normal;
+        std::array<glm::vec3, 4> at; ///< of (0, 1), (1, 1), (1, 0) and (0, 0)
+    };
+    const std::array<Face, 6> faces = {
+        {{{0, -1, 0}, {{{1, -1, -1}, {1, -1, 1}, {-1, -1, 1}, {-1, -1, -1}}}},
+         {{0, 1, 0}, {{{1, 1, -1}, {-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}}}},
+         {{1, 0, 0}, {{{1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}}}},
+         {{0, 0, 1}, {{{1, -1, 1}, {1, 1, 1}, {-1, 1, 1}, {-1, -1, 1}}}},
+         {{-1, 0, 0}, {{{-1, -1, 1}, {-1, 1, 1}, {-1, 1, -1}, {-1, -1, -1}}}},
+         {{0, 0, -1}, {{{1, 1, -1}, {1, -1, -1}, {-1, -1, -1}, {-1, 1, -1}}}}}};
+    const std::array<glm::vec2, 4> uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+    const build::Mesh cube = mitsuba::cubeMesh();
+    ASSERT_EQ(cube.parts.front().size(), 12u);
+    for (const build::MeshTriangle& t : cube.parts.front()) {
+        const auto position = [&](const build::Corner& c) {
+            return glm::vec3(cube.positions[c.position]);
+        };
+        const glm::vec3 a = position(t[0]);
+        const glm::vec3 normal = glm::normalize(glm::cross(position(t[1]) - a, position(t[2]) - a));
+        const auto face = std::ranges::find(faces, normal, &Face::normal);
+        ASSERT_NE(face, faces.end());
+        for (const build::Corner& c : t) {
+            const auto at = std::ranges::find(face->at, position(c));
+            ASSERT_NE(at, face->at.end());
+            EXPECT_EQ(cube.attributes[c.attributes].uv[0], uvs[size_t(at - face->at.begin())]);
+        }
+    }
+}
+
+/// Round the axis from where its frame begins (Duff et al. 2017), as Mitsuba has it.
+TEST(MitsubaShapes, CylindersBeginWhereMitsubasDo) {
+    const glm::dvec3 from(-1, 0.6, 0), axis = glm::normalize(glm::dvec3(2, 0.6, 0));
+    const build::Mesh cylinder = mitsuba::cylinderMesh(from, {1, 1.2, 0}, 0.5);
+    const glm::dvec3 first = (cylinder.positions.at(0) - from) / 0.5;
+    EXPECT_EQ(cylinder.attributes.at(0).uv[0], glm::vec2(0));
+    EXPECT_NEAR(first.x, 1 - axis.x * axis.x, 1e-12);
+    EXPECT_NEAR(first.y, -axis.x * axis.y, 1e-12);
+    EXPECT_NEAR(first.z, -axis.x, 1e-12);
 }
 
 TEST(MitsubaShapes, SpheresStayTrueWhereTheyCan) {
