@@ -32,6 +32,7 @@ struct Format {
     Scene (*load)(const std::filesystem::path& file, const SceneConventions& conventions);
     bool hasSelection = false;   ///< its files hold what FileSelection::option asks for
     bool hasDefinitions = false; ///< its files have values that FileSelection::definitions replace
+    bool saysWhatIsUp = true;
 };
 
 constexpr Format kFormats[] = {
@@ -40,16 +41,21 @@ constexpr Format kFormats[] = {
     {"COLLADA archive (.zae)", ".zae", looksLikeColladaArchive, loadCollada},
     {"glTF 2.0 (.gltf)", ".gltf", looksLikeGltf, loadGltf, true},
     {"binary glTF 2.0 (.glb)", ".glb", looksLikeBinaryGltf, loadGltf, true},
-    {"PLY (.ply)", ".ply", looksLikePly, loadPly},
+    {"PLY (.ply)", ".ply", looksLikePly, loadPly, false, false, false},
     {"Mitsuba (XML whose root element is <scene>)", "", looksLikeMitsuba, loadMitsuba, false, true},
     {"pbrt (.pbrt)", ".pbrt", looksLikePbrt, loadPbrt},
     // The last one: it has no mark of its own.
-    {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj},
+    {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj, false, false, false},
 };
 
 /// Told by its ending alone.
-constexpr Format kByAssimp = {"of a format that Assimp reads (.stl, .fbx, .3ds, ...)", "", nullptr,
-                              loadWithAssimp};
+constexpr Format kByAssimp = {"of a format that Assimp reads (.stl, .fbx, .3ds, ...)",
+                              "",
+                              nullptr,
+                              loadWithAssimp,
+                              false,
+                              false,
+                              false};
 
 /// What is looked at to tell a format. Comments may stand before the first element.
 constexpr size_t kBeginning = 65536;
@@ -90,6 +96,12 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
     const auto refuseSelection = [&](std::string_view what) {
         throw SceneError(fmt::format("{}: {} is about glTF files; {}", source, selects, what));
     };
+    const bool turns = conventions.up != UpAxis::Y;
+    const auto refuseUp = [&](std::string_view what) {
+        throw SceneError(fmt::format("{}: --up is about files that do not say which axis is up "
+                                     "(OBJ, PLY, STL, ...); {}",
+                                     source, what));
+    };
     if (source.starts_with(kGeneratePrefix)) {
         if (!conventions.areDefault())
             throw SceneError(fmt::format("{}: {} is about files; a generated scene has no use "
@@ -97,6 +109,7 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
                                          source, conventions.option));
         if (defines) throw SceneError(source + ": -D is about Mitsuba scenes");
         if (!selects.empty()) refuseSelection("a generated scene has no use for it");
+        if (turns) refuseUp("a generated scene has no use for it");
         Scene scene = generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
         return conventions.instances == InstanceSharing::Off ? expandPlacements(scene).scene
                                                              : std::move(scene);
@@ -114,6 +127,7 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
     if (defines && !format->hasDefinitions)
         throw SceneError(
             fmt::format("{}: -D is about Mitsuba scenes; this one is {}", source, format->name));
+    if (turns && format->saysWhatIsUp) refuseUp(fmt::format("this one is {}", format->name));
     return format->load(file, conventions);
 }
 

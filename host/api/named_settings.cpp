@@ -235,6 +235,8 @@ constexpr Row<SceneRequest> kReadingRows[] = {
      }},
     {"default_light", "whether a plain sky lights a scene without any light",
      [](SceneRequest& s, Name n, const Value& v) { s.reading.defaultLight = yes(n, v); }},
+    {"up", "y or z: which axis points up in files that do not say so",
+     [](SceneRequest& s, Name n, const Value& v) { s.reading.up = choice<UpAxis>(n, v); }},
     {"strict", "whether what breaks the rules of the format is an error",
      [](SceneRequest& s, Name n, const Value& v) { s.reading.strict = yes(n, v); }},
     {"scene", "glTF: the scene of this number, from 0",

@@ -197,6 +197,9 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
         "what meshes that a file shows several times do with their triangles; sharing takes "
         "less memory, copies are faster",
         reading.instances);
+    list.choice("--up", "AXIS",
+                "which axis points up in OBJ, PLY, STL and other files that do not say so",
+                reading.up);
     list.flag("--strict",
               "what breaks the rules of the scene's format or cannot be read is an error, also "
               "where it is clear "

@@ -114,6 +114,7 @@ def load(
     fog_color: Optional[Color] = None,
     fog_asymmetry: Optional[float] = None,
     default_light: Optional[bool] = None,
+    up: Optional[str] = None,
     strict: Optional[bool] = None,
     scene: Optional[int] = None,
     variant: Optional[str] = None,
@@ -134,6 +135,7 @@ def load(
     fog_color -- the share of its light that is scattered, [0, 1]
     fog_asymmetry -- mean cosine of its phase function, from -0.9999 to 0.9999
     default_light -- False: a scene without any light stays black, in place of getting a plain sky
+    up -- "y" or "z": which axis points up in files that do not say so (OBJ, PLY, STL, ...)
     strict -- what breaks the rules of the format is an error
     scene, variant, at -- glTF: number of the scene, set of materials, seconds of the animation
     max_texture -- pictures are halved until no side has more pixels
@@ -155,6 +157,7 @@ def load(
             "fog_color": fog_color,
             "fog_asymmetry": fog_asymmetry,
             "default_light": default_light,
+            "up": up,
             "strict": strict,
             "scene": scene,
             "variant": variant,

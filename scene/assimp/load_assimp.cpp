@@ -127,6 +127,9 @@ Scene loadWithAssimp(const std::filesystem::path& file, const SceneConventions& 
     if (imported->mNumAnimations > 0)
         builder.report().ignore("animations", "the scene is shown without them");
     const double unit = conventions.applyUnit ? assimp::unitOf(*imported) : 1;
+    const bool isStl = assimp::lowered(file.extension().string()) == ".stl";
+    if (isStl && conventions.up == UpAxis::Y)
+        builder.report().assume("an STL file does not say which axis is up: y is (--up z: z)");
     assimp::Nodes(file, *imported, unit, builder).place();
     return builder.finish();
 }

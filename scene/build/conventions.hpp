@@ -55,6 +55,14 @@ inline constexpr auto kNamedValues<InstanceSharing> = std::to_array<NamedValue<I
     {InstanceSharing::Off, "off", "copy"},
 });
 
+/// Which axis of a file points up.
+enum class UpAxis { Y, Z };
+template <>
+inline constexpr auto kNamedValues<UpAxis> = std::to_array<NamedValue<UpAxis>>({
+    {UpAxis::Y, "y", "as in most pictures and games"},
+    {UpAxis::Z, "z", "as in most of CAD, printing and maps"},
+});
+
 /// How a node's matrix aims a directional light.
 enum class DirectionalAim {
     NodeAxis, ///< its light travels along the node's -z axis
@@ -109,6 +117,8 @@ struct SceneConventions {
 
     InstanceSharing instances = InstanceSharing::Automatic;
 
+    /// Of formats that do not say so (readScene() refuses others).
+    UpAxis up = UpAxis::Y;
     /// Lengths are multiplied by the file's unit; otherwise its numbers are taken as metres.
     bool applyUnit = true;
     /// Sizes and depth ranges of cameras are multiplied by the scale of their nodes.

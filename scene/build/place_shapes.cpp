@@ -27,10 +27,17 @@ ShapeId SceneBuilder::addSphere(std::string name, double radius) {
 
 void SceneBuilder::place(const FilePlace& where, ShapeId id, const glm::dmat4& toWorld,
                          std::span<const uint32_t> materials, const std::string& instanceName) {
+    placeStanding(where, id, standing(toWorld), materials, instanceName);
+}
+
+/// y is up in it.
+void SceneBuilder::placeStanding(const FilePlace& where, ShapeId id, const glm::dmat4& toWorld,
+                                 std::span<const uint32_t> materials,
+                                 const std::string& instanceName) {
     Shape& shape = shapes_.at(size_t(id));
     if (const double* radius = std::get_if<double>(&shape.form)) {
         if (!staysSphere(*radius, toWorld))
-            return place(where, stretchedSphere(id), toWorld, materials, instanceName);
+            return placeStanding(where, stretchedSphere(id), toWorld, materials, instanceName);
         return placeSphere(*radius, toWorld, materials.front(), instanceName, shape.drops);
     }
     const Mesh& mesh = std::get<Mesh>(shape.form);

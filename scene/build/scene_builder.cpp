@@ -108,7 +108,14 @@ glm::vec3 SceneBuilder::lightColor(std::string_view what, const glm::vec3& color
     return inside;
 }
 
-void SceneBuilder::placeLight(Light light, const glm::dmat4& toWorld) {
+/// With the axis that is up in the file turned to y.
+glm::dmat4 SceneBuilder::standing(const glm::dmat4& toWorld) const {
+    constexpr glm::dmat4 kFromZUp({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});
+    return conventions_.up == UpAxis::Z ? kFromZUp * toWorld : toWorld;
+}
+
+void SceneBuilder::placeLight(Light light, const glm::dmat4& stated) {
+    const glm::dmat4 toWorld = standing(stated);
     if (light.kind == LightKind::Spot && !conventions_.spotLights)
         return report_.ignore("<spot> light", "gives no light in " + conventions_.renderer);
     if (light.kind == LightKind::Ambient)
@@ -129,7 +136,8 @@ void SceneBuilder::addPortal(const glm::dvec3& corner, const glm::dvec3& edgeA,
     portalCorners_.push_back(corner);
 }
 
-void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld, bool isMirrored) {
+void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& stated, bool isMirrored) {
+    const glm::dmat4 toWorld = standing(stated);
     const glm::dvec3 scale = axisLengths(toWorld);
     if (!poseCamera(camera, toWorld))
         return report_.warn(fmt::format(

@@ -119,6 +119,9 @@ class SceneBuilder {
         Drops drops;
     };
 
+    glm::dmat4 standing(const glm::dmat4& toWorld) const;
+    void placeStanding(const FilePlace& where, ShapeId shape, const glm::dmat4& toWorld,
+                       std::span<const uint32_t> materials, const std::string& instanceName);
     uint32_t startInstance(const std::string& name);
     void centreMeshes();
     void moveOrigin();

@@ -94,6 +94,27 @@ TEST_F(ReadScene, ObjAndPly) {
     EXPECT_THAT(messageOf(write("d.obj", ply)), HasSubstr("has no vertex"));
 }
 
+/// What has the height z in a file stands on the ground, and faces the camera with what had the
+/// least y.
+TEST_F(ReadScene, FilesThatDoNotSayWhatIsUp) {
+    SceneConventions conventions;
+    conventions.up = UpAxis::Z;
+    const Scene scene =
+        readScene(write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 3\nf 1 2 3\n"), conventions);
+    EXPECT_EQ(scene.bounds().lo, glm::vec3(0, 0, -2));
+    EXPECT_EQ(scene.bounds().hi, glm::vec3(1, 3, 0));
+    EXPECT_EQ(readScene(write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 3\nf 1 2 3\n")).bounds().hi,
+              glm::vec3(1, 2, 3));
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+        "y\nproperty float z\nelement face 1\nproperty list uchar int "
+        "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 2 3\n3 0 1 2\n";
+    EXPECT_EQ(readScene(write("a.ply", ply), conventions).bounds().hi, glm::vec3(1, 3, 0));
+    for (const std::string& source : {write("a.dae", kProlog + kRoot), std::string("cornell_boxes"),
+                                      std::string("generate:cornell_mesh:1000")})
+        EXPECT_THROW(readScene(source, conventions), SceneError) << source;
+}
+
 TEST_F(ReadScene, ByContentWhereTheNameSaysNothing) {
     for (const char* name : {"scene", "scene.xml", "scene.txt", ".dae"})
         EXPECT_EQ(trianglesOf(name, kProlog + kRoot), 1u) << name;
