@@ -142,7 +142,9 @@ void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& stated, bool
     if (!poseCamera(camera, toWorld))
         return report_.warn(fmt::format(
             "camera '{}' is left out: its node's transformation is singular", camera.name));
-    if (areUnequal(scale))
+    // A parallel projection has no length along the view.
+    const bool isParallel = camera.projection == Projection::Orthographic;
+    if (areUnequal(isParallel ? glm::dvec3(scale.x, scale.y, scale.y) : scale))
         report_.warn(fmt::format("camera '{}': its node scales the axes unequally, which its "
                                  "picture does not show",
                                  camera.name));

@@ -84,10 +84,15 @@ TEST(MitsubaSensors, LensesAndParallelViews) {
     EXPECT_EQ(lens.lensRadius, 0.2);
     EXPECT_EQ(lens.focusDistance, 7);
     const Scene parallel =
-        sceneSeenBy("<transform name=\"to_world\"><scale value=\"3\"/></transform>" + kWideFilm,
+        sceneSeenBy("<transform name=\"to_world\"><scale x=\"3\" y=\"3\"/></transform>" + kWideFilm,
                     "orthographic");
     EXPECT_EQ(*parallel.cameras.at(0).halfWidth, 3);
     EXPECT_EQ(*parallel.cameras.at(0).halfHeight, 1.5);
+    EXPECT_TRUE(parallel.report.warnings.empty()) << "it has no length along the view";
+    EXPECT_FALSE(
+        sceneSeenBy("<transform name=\"to_world\"><scale x=\"3\" y=\"2\"/></transform>" + kWideFilm,
+                    "orthographic")
+            .report.warnings.empty());
     const Camera camera =
         makeCamera(sceneSeenBy("<float name=\"aperture_radius\" value=\"0.2\"/>", "thinlens"),
                    CameraChoice::File, 100, 75);
