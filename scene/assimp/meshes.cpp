@@ -2,9 +2,11 @@
 
 #include "scene/assimp/vectors.hpp"
 #include "scene/build/tangents.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -15,8 +17,24 @@ float finite(float x) {
     return std::isfinite(x) ? x : 0.0f;
 }
 
+/// What colours are divided by: OFF files of many programs have bytes.
+float mostOfColors(const aiMesh& mesh) {
+    if (!mesh.HasVertexColors(0)) return 1;
+    float most = 0;
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiColor4D& c = mesh.mColors[0][i];
+        most = std::max({most, finite(c.r), finite(c.g), finite(c.b)});
+    }
+    return most > 1 && most <= 255 ? 255.0f : 1.0f;
+}
+
+/// Colours are a screen's, as those of OBJ and PLY files.
+float linearOf(float color, float most) {
+    return float(srgbToLinear(double(finite(color) / most)));
+}
+
 /// Assimp's v grows upwards.
-VertexAttributes attributesOf(const aiMesh& mesh, unsigned vertex) {
+VertexAttributes attributesOf(const aiMesh& mesh, unsigned vertex, float mostOfColors) {
     VertexAttributes a;
     for (unsigned set = 0; set < 2; ++set)
         if (mesh.HasTextureCoords(set)) {
@@ -25,7 +43,8 @@ VertexAttributes attributesOf(const aiMesh& mesh, unsigned vertex) {
         }
     if (mesh.HasVertexColors(0)) {
         const aiColor4D& c = mesh.mColors[0][vertex];
-        a.color = {finite(c.r), finite(c.g), finite(c.b), finite(c.a)};
+        a.color = {linearOf(c.r, mostOfColors), linearOf(c.g, mostOfColors),
+                   linearOf(c.b, mostOfColors), std::min(finite(c.a), 1.0f)};
     }
     return a;
 }
@@ -51,10 +70,11 @@ std::optional<build::ShapeId> Meshes::make(const aiMesh& mesh) {
     build::Mesh made;
     const bool hasAttributes =
         mesh.HasTextureCoords(0) || mesh.HasTextureCoords(1) || mesh.HasVertexColors(0);
+    const float most = mostOfColors(mesh);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         made.positions.push_back(vectorOf(mesh.mVertices[i]));
         if (mesh.HasNormals()) made.normals.push_back(vectorOf(mesh.mNormals[i]));
-        if (hasAttributes) made.attributes.push_back(attributesOf(mesh, i));
+        if (hasAttributes) made.attributes.push_back(attributesOf(mesh, i, most));
     }
     build::MeshPart part;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {

@@ -146,6 +146,23 @@ Connections:  {
 }
 )";
 
+TEST_F(AssimpFiles, OffMayHaveColoursOfBytes) {
+    for (const char* colors : {"255 188 0 255", "1.0 0.7373 0.0 1.0"}) {
+        const std::string corner = std::string(" ") + colors + "\n";
+        const std::optional<Scene> scene =
+            read(write("a.off", "COFF\n3 1 0\n0 0 0" + corner + "1 0 0" + corner + "0 1 0" +
+                                    corner + "3 0 1 2\n"));
+        if (!scene) GTEST_SKIP() << "Assimp is not installed";
+        ASSERT_EQ(scene->attributes.size(), 3u) << colors;
+        const glm::vec4 color = scene->attributes[0].color;
+        EXPECT_NEAR(color.r, 1, 1e-3);
+        EXPECT_NEAR(color.g, 0.5, 3e-3) << "of a screen: 188 of 255 is half of the light";
+        EXPECT_NEAR(color.b, 0, 1e-3);
+        EXPECT_EQ(color.a, 1);
+        EXPECT_TRUE(scene->report.warnings.empty());
+    }
+}
+
 TEST_F(AssimpFiles, FbxHasItsAnglesAndDecays) {
     const std::optional<Scene> scene = read(write("a.fbx", kFbx));
     if (!scene) GTEST_SKIP() << "Assimp is not installed";
