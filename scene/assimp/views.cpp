@@ -50,8 +50,8 @@ void placeLight(const aiLight& file, const glm::dmat4& toWorld, double unit,
     }
     light.constantAttenuation = file.mAttenuationConstant;
     light.linearAttenuation = float(file.mAttenuationLinear / unit);
-    // Of FBX files Assimp makes it from where a modeller begins to draw the decay, which is no part
-    // of it: as the inverse of the square, and of the distance, in metres.
+    // For FBX files Assimp makes it from where a modeller begins to draw the decay, which says
+    // nothing of the light: such a lamp has its intensity at one metre.
     const bool isSquare = light.constantAttenuation == 0 && file.mAttenuationLinear == 0 &&
                           file.mAttenuationQuadratic > 0;
     light.quadraticAttenuation = isSquare ? 1 : float(file.mAttenuationQuadratic / (unit * unit));
@@ -67,8 +67,8 @@ void placeCamera(const aiCamera& file, const glm::dmat4& toWorld, build::SceneBu
     camera.name = file.mName.C_Str();
     const bool isOrthographic = file.mOrthographicWidth > 0;
     camera.projection = isOrthographic ? Projection::Orthographic : Projection::Perspective;
-    // Assimp's documents have the angle from the middle of the view to its border; its readers
-    // (FBX, BLEND, 3DS, ASE) give that between both borders, as their formats do.
+    // Assimp's documents have the angle from the middle of the view to its border; its readers give
+    // what their formats state, as FBX does, which is that between both borders.
     camera.halfWidth = isOrthographic
                            ? double(file.mOrthographicWidth)
                            : std::tan(std::clamp(double(file.mHorizontalFOV) / 2, 1e-3, 1.5));

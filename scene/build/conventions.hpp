@@ -117,7 +117,7 @@ struct SceneConventions {
 
     InstanceSharing instances = InstanceSharing::Automatic;
 
-    /// Of formats that do not say so (readScene() refuses others).
+    /// What is up in files whose format does not say so (readScene() refuses others).
     UpAxis up = UpAxis::Y;
     /// Lengths are multiplied by the file's unit; otherwise its numbers are taken as metres.
     bool applyUnit = true;

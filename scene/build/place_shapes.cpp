@@ -30,7 +30,7 @@ void SceneBuilder::place(const FilePlace& where, ShapeId id, const glm::dmat4& t
     placeStanding(where, id, standing(toWorld), materials, instanceName);
 }
 
-/// y is up in it.
+/// toWorld: into a world in which y is up.
 void SceneBuilder::placeStanding(const FilePlace& where, ShapeId id, const glm::dmat4& toWorld,
                                  std::span<const uint32_t> materials,
                                  const std::string& instanceName) {

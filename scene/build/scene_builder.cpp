@@ -108,7 +108,7 @@ glm::vec3 SceneBuilder::lightColor(std::string_view what, const glm::vec3& color
     return inside;
 }
 
-/// With the axis that is up in the file turned to y.
+/// The matrix for a world in which y is up, whatever is up in the file.
 glm::dmat4 SceneBuilder::standing(const glm::dmat4& toWorld) const {
     constexpr glm::dmat4 kFromZUp({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});
     return conventions_.up == UpAxis::Z ? kFromZUp * toWorld : toWorld;
