@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <set>
+#include <thread>
+#include <vector>
 
 namespace stromboli::reference {
 namespace {
@@ -68,6 +70,36 @@ TEST(Random, StreamsOfNeighboursAreNotCorrelated) {
     EXPECT_NEAR(pixels, 0, 4.5 / std::sqrt(kCount));
     EXPECT_NEAR(samples, 0, 4.5 / std::sqrt(kCount));
     EXPECT_NEAR(seeds, 0, 4.5 / std::sqrt(kCount));
+}
+
+/// Numbers do not depend on what a thread has drawn before, though it remembers what the samples of
+/// a pixel have in common: streams that differ in one of what names them, and blocks that lie as
+/// far apart as it remembers, have the numbers that they have on a thread of their own.
+TEST(Random, KnowsNothingOfOtherStreams) {
+    struct Name {
+        uint32_t pixel, sample, seed;
+    };
+    const std::vector<Name> names = {{0, 0, 0},        {0, 0, 1}, {1, 0, 0}, {0, 1, 0},
+                                     {0, 1u << 24, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 0}};
+    const auto drawn = [](const Name& name, int count) {
+        RandomStream stream(name.pixel, name.sample, name.seed, Sampler::Sobol);
+        std::vector<double> numbers;
+        for (int i = 0; i < count; ++i)
+            numbers.push_back(stream.next());
+        return numbers;
+    };
+    std::set<std::vector<double>> different;
+    for (const int count : {4 * 3, 4 * 130}) // few blocks, and more than are remembered
+        for (const Name& name : names) {
+            const std::vector<double> here = drawn(name, count);
+            std::vector<double> alone;
+            std::thread([&] { alone = drawn(name, count); }).join();
+            EXPECT_EQ(here, alone) << name.pixel << ", " << name.sample << ", " << name.seed;
+            const std::set<double> numbers(alone.begin(), alone.end());
+            EXPECT_EQ(numbers.size(), alone.size()) << "blocks are different";
+            different.insert(alone);
+        }
+    EXPECT_EQ(different.size(), 2 * 5u);
 }
 
 } // namespace
