@@ -28,6 +28,11 @@ std::string lowered(std::string text) {
     return text;
 }
 
+/// In small letters, with its dot.
+std::string endingOf(const std::filesystem::path& file) {
+    return lowered(file.extension().string());
+}
+
 Imported import(const std::filesystem::path& file) {
     const AssimpApi& api = assimpApi();
     if (!api.missing.empty())
@@ -38,7 +43,7 @@ Imported import(const std::filesystem::path& file) {
         aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
     Imported scene(api.importFile(file.c_str(), kSteps), api.releaseImport);
     // Assimp reads the keywords of STL as text in small letters only.
-    if (!scene && lowered(file.extension().string()) == ".stl") {
+    if (!scene && endingOf(file) == ".stl") {
         const std::string text = lowered(build::readFile(file));
         scene.reset(api.importMemory(text.data(), unsigned(text.size()), kSteps, "stl"));
     }
@@ -69,8 +74,9 @@ class Nodes {
   public:
     Nodes(const std::filesystem::path& file, const aiScene& scene, double unit,
           build::SceneBuilder& builder)
-        : file_(file.string()), scene_(scene), unit_(unit), builder_(builder),
-          materials_(file, scene, builder), meshes_(scene, builder, materials_) {}
+        : file_(file.string()), scene_(scene), unit_(unit), isFbx_(endingOf(file) == ".fbx"),
+          builder_(builder), materials_(file, scene, builder), meshes_(scene, builder, materials_) {
+    }
 
     void place() {
         struct Pending {
@@ -104,7 +110,7 @@ class Nodes {
         const std::string_view name = node.mName.C_Str();
         for (unsigned i = 0; i < scene_.mNumLights; ++i)
             if (name == scene_.mLights[i]->mName.C_Str())
-                placeLight(*scene_.mLights[i], matrix, unit_, builder_);
+                placeLight(*scene_.mLights[i], matrix, unit_, isFbx_, builder_);
         for (unsigned i = 0; i < scene_.mNumCameras; ++i)
             if (name == scene_.mCameras[i]->mName.C_Str())
                 placeCamera(*scene_.mCameras[i], matrix, builder_);
@@ -113,6 +119,7 @@ class Nodes {
     std::string file_;
     const aiScene& scene_;
     double unit_; ///< metres
+    bool isFbx_;
     build::SceneBuilder& builder_;
     Materials materials_;
     Meshes meshes_;
@@ -127,8 +134,7 @@ Scene loadWithAssimp(const std::filesystem::path& file, const SceneConventions& 
     if (imported->mNumAnimations > 0)
         builder.report().ignore("animations", "the scene is shown without them");
     const double unit = conventions.applyUnit ? assimp::unitOf(*imported) : 1;
-    const bool isStl = assimp::lowered(file.extension().string()) == ".stl";
-    if (isStl && conventions.up == UpAxis::Y)
+    if (assimp::endingOf(file) == ".stl" && conventions.up == UpAxis::Y)
         builder.report().assume("an STL file does not say which axis is up: y is (--up z: z)");
     assimp::Nodes(file, *imported, unit, builder).place();
     return builder.finish();

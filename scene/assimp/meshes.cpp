@@ -33,6 +33,11 @@ float linearOf(float color, float most) {
     return float(srgbToLinear(double(finite(color) / most)));
 }
 
+/// Beside colours of bytes there are programs that write 1 and such that write 255.
+float opacityOf(float alpha) {
+    return alpha > 1 ? std::min(alpha / 255, 1.0f) : finite(alpha);
+}
+
 /// Assimp's v grows upwards.
 VertexAttributes attributesOf(const aiMesh& mesh, unsigned vertex, float mostOfColors) {
     VertexAttributes a;
@@ -44,7 +49,7 @@ VertexAttributes attributesOf(const aiMesh& mesh, unsigned vertex, float mostOfC
     if (mesh.HasVertexColors(0)) {
         const aiColor4D& c = mesh.mColors[0][vertex];
         a.color = {linearOf(c.r, mostOfColors), linearOf(c.g, mostOfColors),
-                   linearOf(c.b, mostOfColors), std::min(finite(c.a), 1.0f)};
+                   linearOf(c.b, mostOfColors), opacityOf(c.a)};
     }
     return a;
 }

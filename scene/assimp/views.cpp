@@ -23,7 +23,7 @@ glm::dmat4 lookingAlong(const glm::dvec3& at, const glm::dvec3& direction, const
 } // namespace
 
 void placeLight(const aiLight& file, const glm::dmat4& toWorld, double unit,
-                build::SceneBuilder& builder) {
+                bool decaysFromOneMetre, build::SceneBuilder& builder) {
     Light light;
     light.name = file.mName.C_Str();
     light.color = builder.lightColor(
@@ -50,11 +50,12 @@ void placeLight(const aiLight& file, const glm::dmat4& toWorld, double unit,
     }
     light.constantAttenuation = file.mAttenuationConstant;
     light.linearAttenuation = float(file.mAttenuationLinear / unit);
-    // For FBX files Assimp makes it from where a modeller begins to draw the decay, which says
-    // nothing of the light: such a lamp has its intensity at one metre.
-    const bool isSquare = light.constantAttenuation == 0 && file.mAttenuationLinear == 0 &&
-                          file.mAttenuationQuadratic > 0;
-    light.quadraticAttenuation = isSquare ? 1 : float(file.mAttenuationQuadratic / (unit * unit));
+    light.quadraticAttenuation = float(file.mAttenuationQuadratic / (unit * unit));
+    if (decaysFromOneMetre) {
+        light.linearAttenuation = light.linearAttenuation > 0 ? 1.0f : 0.0f;
+        light.quadraticAttenuation = light.quadraticAttenuation > 0 ? 1.0f : 0.0f;
+        light.constantAttenuation = 0; // 1 below, where it does not fade
+    }
     const bool fades = light.constantAttenuation > 0 || light.linearAttenuation > 0 ||
                        light.quadraticAttenuation > 0;
     if (!fades) light.constantAttenuation = 1;

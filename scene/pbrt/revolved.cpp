@@ -14,7 +14,7 @@
 namespace stromboli::pbrt {
 namespace {
 
-constexpr uint32_t kSides = 256; ///< around: off by 7.5e-5 of the radius at most
+constexpr uint32_t kSides = build::kSphereSides; ///< around
 
 /// A line of points, v in [0, 1], that is turned.
 using Profile = std::function<glm::dvec3(double v)>;

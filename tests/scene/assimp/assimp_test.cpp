@@ -147,7 +147,7 @@ Connections:  {
 )";
 
 TEST_F(AssimpFiles, OffMayHaveColoursOfBytes) {
-    for (const char* colors : {"255 188 0 255", "1.0 0.7373 0.0 1.0"}) {
+    for (const char* colors : {"255 188 0 255", "255 188 0 1", "1.0 0.7373 0.0 1.0"}) {
         const std::string corner = std::string(" ") + colors + "\n";
         const std::optional<Scene> scene =
             read(write("a.off", "COFF\n3 1 0\n0 0 0" + corner + "1 0 0" + corner + "0 1 0" +
@@ -174,6 +174,13 @@ TEST_F(AssimpFiles, FbxHasItsAnglesAndDecays) {
     EXPECT_EQ(lamp.color, glm::vec3(3));
     EXPECT_EQ(lamp.constantAttenuation, 0);
     EXPECT_EQ(lamp.quadraticAttenuation, 1);
+    // One that does not fade has its intensity anywhere.
+    std::string steady = kFbx;
+    const std::string type = "P: \"DecayType\", \"enum\", \"\", \"\",";
+    steady.replace(steady.find(type) + type.size(), 1, "0");
+    const Scene unfading = *read(write("b.fbx", steady));
+    EXPECT_EQ(unfading.lights.at(0).constantAttenuation, 1);
+    EXPECT_EQ(unfading.lights.at(0).quadraticAttenuation, 0);
 }
 
 TEST_F(AssimpFiles, StlInCapitalsHasItsTrianglesToo) {
