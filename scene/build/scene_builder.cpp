@@ -155,8 +155,8 @@ void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& stated, bool
 
 void SceneBuilder::lightTheDark() {
     const bool hasGeometry = !scene_.triangles.empty() || !scene_.spheres.empty();
-    const bool isLit = picturesAreLamps_ ? shines(scene_) : lightsItsSurfaces(scene_);
-    if (!conventions_.defaultLight || !hasGeometry || isLit) return;
+    if (!conventions_.defaultLight || !hasGeometry) return;
+    if (picturesAreLamps_ ? shines(scene_) : lightsItsSurfaces(scene_)) return; // takes time
     // Before the light is there.
     const char* why = shines(scene_) ? "the pictures of emission are too weak to light the surfaces"
                                      : "the file has no light";
