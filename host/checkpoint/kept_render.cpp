@@ -33,11 +33,13 @@ void KeptSession::begin(bool again) {
     if (written_) begun = readCheckpoint(render_.file).state;
     session_.reset();
     backend_.reset(); // before the memory of the next is asked for
-    backend_ = makeBackend_(render_.settings, again);
+    RenderSettings settings = render_.settings;
+    if (begun) settings.strands = begun->pixels.strands;
+    backend_ = makeBackend_(settings, again);
     if (begun)
         session_.emplace(*backend_, *begun);
     else
-        session_.emplace(*backend_, render_.settings);
+        session_.emplace(*backend_, settings);
     samplesBefore_ = session_->samplesDone();
 }
 

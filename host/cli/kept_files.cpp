@@ -37,10 +37,6 @@ struct Kept {
     std::optional<PictureNoise> noise;
 };
 
-KeptSums kindOf(const RenderIdentity& identity) {
-    return identity.backend == nameOf(BackendChoice::Vulkan) ? KeptSums::Sums : KeptSums::Means;
-}
-
 /// Paths of a pixel, on the mean.
 double meanPaths(const Film& film) {
     double sum = 0;
@@ -63,7 +59,7 @@ Kept ofCheckpoint(const std::string& file) {
     const Checkpoint checkpoint = readCheckpoint(file);
     Kept kept{.file = file, .kind = "checkpoint"};
     describe(kept, checkpoint.identity, checkpoint.state.settings);
-    const Film film = filmOf(checkpoint.state, kindOf(checkpoint.identity));
+    const Film film = filmOf(checkpoint.state);
     kept.samples = meanPaths(film);
     kept.atMost = pathsAtMost(checkpoint.state.settings);
     kept.noise = noiseOf(checkpoint.state, film);
@@ -226,7 +222,7 @@ KeptPicture pictureOf(const std::string& file) {
                                state.settings.area.width != bands.front().width ||
                                state.settings.area.height != bands.front().height))
             throw UsageError(fmt::format("{} is of another render than {}", one, files.front()));
-        Film film = filmOf(state, kindOf(identity));
+        Film film = filmOf(state);
         const PictureNoise noise = noiseOf(state, film);
         const double paths = meanPaths(film);
         const uint64_t count = film.pixels.size();

@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 double meanSamples(const SessionState& state) {
     double sum = 0;
-    for (const PixelSums& s : state.sums)
-        sum += s.count + s.rejected;
+    for (size_t i = 0; i < state.pixels.count(); ++i)
+        sum += state.pixels.statistics(i).taken();
     for (const ExactStatistics& s : state.blocks)
         sum += s.taken();
-    return state.sums.empty() ? 0
-                              : sum * state.settings.estimator.branches / double(state.sums.size());
+    const auto pixels = double(state.settings.area.pixelCount());
+    return sum * state.settings.estimator.branches / pixels;
 }
 
 } // namespace

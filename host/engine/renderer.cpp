@@ -109,7 +109,7 @@ uint64_t RenderDevices::hostBytesPerPixel() const {
     uint64_t bytes = 0;
     for (const Seat& seat : seats_)
         if (seat.open.device->description().isCpu()) bytes += sizeof(gpu::PixelState);
-    return seats_.size() > 1 ? bytes + sizeof(PixelSums) : bytes;
+    return seats_.size() > 1 ? bytes + sizeof(gpu::PixelState) : bytes;
 }
 
 bool RenderDevices::haveRoomForTextures(const GpuScene& scene) const {
@@ -151,8 +151,14 @@ void RenderDevices::prepare(Seat& seat, const Camera& camera,
                                                    KernelTuning{.scheduler = request_.scheduler});
 }
 
-/// At the same time on all of them: compiling the kernel takes seconds on some.
-void RenderDevices::prepareAll(const Camera& camera, const RenderSettings& settings) {
+/// At the same time on all of them: compiling the kernel takes seconds on some. A pixel has the
+/// strands that suit the first one.
+void RenderDevices::prepareAll(const Camera& camera, const RenderSettings& asked) {
+    RenderSettings settings = asked;
+    if (settings.strands == 0)
+        settings.strands = tuningFor({.scheduler = request_.scheduler}, *seats_.front().open.device,
+                                     *scene_, asked.area, 0)
+                               .strands;
     std::vector<std::future<void>> ready;
     for (Seat& seat : seats_)
         ready.push_back(std::async(std::launch::async, [&] { prepare(seat, camera, settings); }));

@@ -68,7 +68,7 @@ class RenderDevices {
     void sayHow();
     void leaveOutWhoDroppedOut();
     void prepare(Seat& seat, const Camera& camera, const RenderSettings& settings) const;
-    void prepareAll(const Camera& camera, const RenderSettings& settings);
+    void prepareAll(const Camera& camera, const RenderSettings& asked);
 
     DeviceRequest request_;
     Listener listener_;

@@ -49,6 +49,13 @@ void PixelStatistics::merge(const PixelStatistics& other) {
     count += other.count;
 }
 
+void PixelStatistics::mergeStrand(const PixelStatistics& other, uint32_t strand, uint32_t strands) {
+    uint32_t first = firstRejected;
+    if (other.rejected > 0) first = std::min(first, other.firstRejected * strands + strand);
+    merge(other);
+    firstRejected = first;
+}
+
 // --- Statistics that add up exactly --------------------------------------------------------------
 
 namespace {

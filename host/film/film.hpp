@@ -71,6 +71,9 @@ struct PixelStatistics {
     /// Chan, Golub and LeVeque 1979: statistics of the union of two sets of samples. The other's
     /// samples follow these: its firstRejected counts from its own first sample.
     void merge(const PixelStatistics& other);
+    /// Likewise, of a pixel's samples that were dealt to `strands` one by one: the other has those
+    /// of this strand.
+    void mergeStrand(const PixelStatistics& other, uint32_t strand, uint32_t strands);
 };
 
 /// The part of a picture that is rendered, in the making: row 0 is the top, pixel (x, y) of the

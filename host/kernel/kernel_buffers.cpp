@@ -3,7 +3,7 @@
 #include "host/kernel/light_guide.hpp"
 #include "host/kernel/path_kernel.hpp"
 #include "host/kernel/sampling_tables.hpp"
-#include "host/render/kept_film.hpp"
+#include "host/render/kept_pixels.hpp"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/wavefront_types.h"
 
@@ -87,12 +87,12 @@ PathBuffers pathBuffers(const KernelFeatures& features, uint64_t lanes, PathSche
 
 std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& area,
                                     const Estimator& estimator, const DeviceTuning& tuning) {
-    const uint64_t pixels = area.pixelCount();
-    const uint64_t items = std::min<uint64_t>(tuning.itemsPerDispatch, pixels);
-    const uint64_t lanes = std::min<uint64_t>(tuning.lanes, pixels);
+    const uint64_t states = area.pixelCount() * tuning.strands;
+    const uint64_t items = std::min<uint64_t>(tuning.itemsPerDispatch, states);
+    const uint64_t lanes = std::min<uint64_t>(tuning.lanes, states);
     const BufferUse rows = rowUse(tuning);
     std::vector<BufferPlan> plans = planSceneBuffers(scene, tuning);
-    plans.push_back({"film", pixels * sizeof(gpu::PixelState), rows});
+    plans.push_back({"film", states * sizeof(gpu::PixelState), rows});
     plans.push_back({"work list", items * sizeof(gpu::WorkItem), rows});
     // What a path has does not depend on the camera.
     const PathBuffers paths =
@@ -120,7 +120,7 @@ uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceT
     constexpr uint64_t kMostPixels = uint64_t(1) << 24; // 1 GiB
     const uint64_t bytes =
         std::min(bindingLimit(device, rowUse(tuning)).bytes, device.largestAllocation);
-    return std::min(bytes / sizeof(gpu::PixelState), kMostPixels);
+    return std::min(bytes / sizeof(gpu::PixelState), kMostPixels) / tuning.strands;
 }
 
 uint64_t filmPixelsThatFit(const vulkan::DeviceDescription& device, const GpuScene& scene,
@@ -149,8 +149,8 @@ void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
     const std::vector<BufferPlan> plans = planBuffers(scene, area, estimator, tuning);
     for (BufferPlan plan : plans) {
         if (plan.name == "film")
-            plan.bytes =
-                std::min(plan.bytes, pixelsPerSegment(device, tuning) * sizeof(gpu::PixelState));
+            plan.bytes = std::min(plan.bytes, pixelsPerSegment(device, tuning) * tuning.strands *
+                                                  sizeof(gpu::PixelState));
         requireFits(device, plan);
     }
     requireTogetherFit(device, plans);
@@ -236,32 +236,6 @@ SceneBuffers DeviceScene::releaseAllBut(std::span<const uint32_t> changed) {
 
 namespace {
 
-PixelSums sumsOf(const gpu::PixelState& s) {
-    return {.count = s.count,
-            .rejected = s.rejected,
-            .firstRejected = s.firstRejected,
-            .first = s.sum,
-            .firstError = s.sumError,
-            .second = s.m2,
-            .secondError = s.m2Error};
-}
-
-PixelStatistics statisticsOf(const gpu::PixelState& s) {
-    return statisticsOf(sumsOf(s), KeptSums::Sums);
-}
-
-gpu::PixelState stateOf(const PixelSums& s) {
-    gpu::PixelState state{};
-    state.count = s.count;
-    state.rejected = s.rejected;
-    state.firstRejected = s.firstRejected;
-    state.sum = s.first;
-    state.sumError = s.firstError;
-    state.m2 = s.second;
-    state.m2Error = s.secondError;
-    return state;
-}
-
 /// What of a run lies in a segment, counted in it.
 PixelRun partOf(const FilmSegment& segment, PixelRun run) {
     const uint32_t first = std::max(run.first, segment.firstPixel);
@@ -274,53 +248,57 @@ PixelRun partOf(const FilmSegment& segment, PixelRun run) {
 
 DeviceFilm::DeviceFilm(const vulkan::Device& device, const PictureArea& area,
                        const DeviceTuning& tuning)
-    : area_(area), queue_(device) {
+    : area_(area), strands_(tuning.strands), queue_(device) {
     const uint64_t total = area.pixelCount();
     const uint64_t perSegment = pixelsPerSegment(device.description(), tuning);
     for (uint64_t first = 0; first < total; first += perSegment) {
         const auto count = uint32_t(std::min(perSegment, total - first));
-        FilmSegment& s = segments_.emplace_back(
-            FilmSegment{uint32_t(first), count,
-                        vulkan::Buffer(device, "film", uint64_t(count) * sizeof(gpu::PixelState),
-                                       rowUse(tuning))});
+        FilmSegment& s = segments_.emplace_back(FilmSegment{
+            uint32_t(first), count,
+            vulkan::Buffer(device, "film", uint64_t(count) * strands_ * sizeof(gpu::PixelState),
+                           rowUse(tuning))});
         s.pixels.clear(queue_);
     }
 }
 
-std::pair<size_t, uint32_t> DeviceFilm::segmentOf(uint32_t pixel) const {
+std::pair<size_t, uint32_t> DeviceFilm::firstStrandOf(uint32_t pixel) const {
     const uint32_t perSegment = segments_.front().pixelCount;
-    return {pixel / perSegment, pixel % perSegment};
+    return {pixel / perSegment, pixel % perSegment * strands_};
 }
 
 std::vector<std::vector<gpu::WorkItem>>
 DeviceFilm::workOf(std::span<const PixelTarget> targets) const {
     std::vector<std::vector<gpu::WorkItem>> work(segments_.size());
     for (const PixelTarget& t : targets) {
-        const auto [segment, pixel] = segmentOf(t.pixel);
+        const auto [segment, first] = firstStrandOf(t.pixel);
         const PixelPlace place = area_.placeOf(t.pixel);
-        work[segment].push_back({pixel, t.samples, place.x, place.y});
+        for (uint32_t strand = 0; strand < std::min(strands_, t.samples); ++strand) {
+            const uint32_t samples = (t.samples - strand - 1) / strands_ + 1;
+            work[segment].push_back({first + strand, samples, place.x, place.y});
+        }
     }
     return work;
 }
 
-gpu::PixelState DeviceFilm::read(size_t segment, uint32_t pixel) {
+gpu::PixelState DeviceFilm::read(size_t segment, uint32_t index) {
     gpu::PixelState state{};
     segments_[segment].pixels.download(queue_, std::as_writable_bytes(std::span(&state, 1)),
-                                       uint64_t(pixel) * sizeof(gpu::PixelState));
+                                       uint64_t(index) * sizeof(gpu::PixelState));
     return state;
 }
 
-void DeviceFilm::write(size_t segment, uint32_t pixel, const gpu::PixelState& state) {
+void DeviceFilm::write(size_t segment, uint32_t index, const gpu::PixelState& state) {
     segments_[segment].pixels.upload(queue_, std::as_bytes(std::span(&state, 1)),
-                                     uint64_t(pixel) * sizeof(gpu::PixelState));
+                                     uint64_t(index) * sizeof(gpu::PixelState));
 }
 
 std::span<const gpu::PixelState> DeviceFilm::statesOf(const FilmSegment& segment, PixelRun run) {
+    const size_t first = size_t(run.first) * strands_, count = size_t(run.count) * strands_;
     if (const std::byte* view = segment.pixels.hostView())
-        return {reinterpret_cast<const gpu::PixelState*>(view) + run.first, run.count};
-    copy_.resize(run.count);
+        return {reinterpret_cast<const gpu::PixelState*>(view) + first, count};
+    copy_.resize(count);
     segment.pixels.download(queue_, std::as_writable_bytes(std::span(copy_)),
-                            uint64_t(run.first) * sizeof(gpu::PixelState));
+                            first * sizeof(gpu::PixelState));
     return copy_;
 }
 
@@ -328,12 +306,15 @@ void DeviceFilm::readBack(size_t index, std::span<const gpu::WorkItem> items, Fi
     if (items.empty()) return;
     const FilmSegment& segment = segments_[index];
     const auto [least, most] = std::ranges::minmax(items, {}, &gpu::WorkItem::pixel);
-    const PixelRun run = {least.pixel, most.pixel - least.pixel + 1};
-    const std::span<const gpu::PixelState> states = statesOf(segment, run);
+    const uint32_t first = least.pixel / strands_, end = most.pixel / strands_ + 1;
+    const std::span<const gpu::PixelState> states = statesOf(segment, {first, end - first});
     tbb::parallel_for(tbb::blocked_range<size_t>(0, items.size(), 4096), [&](const auto& range) {
-        for (size_t i = range.begin(); i != range.end(); ++i)
-            film.pixels[segment.firstPixel + items[i].pixel] =
-                statisticsOf(states[items[i].pixel - run.first]);
+        for (size_t i = range.begin(); i != range.end(); ++i) {
+            if (items[i].pixel % strands_ != 0) continue; // the first has the samples that it has
+            const uint32_t pixel = items[i].pixel / strands_;
+            film.pixels[segment.firstPixel + pixel] =
+                statisticsOf(states.subspan(size_t(pixel - first) * strands_, strands_));
+        }
     });
 }
 
@@ -342,32 +323,29 @@ void DeviceFilm::clear() {
         segment.pixels.clear(queue_);
 }
 
-std::vector<PixelSums> DeviceFilm::save(PixelRun run) {
-    std::vector<PixelSums> sums;
-    sums.reserve(run.count);
-    for (const FilmSegment& segment : segments_) {
-        const PixelRun part = partOf(segment, run);
-        if (part.count == 0) continue;
-        for (const gpu::PixelState& state : statesOf(segment, part))
-            sums.push_back(sumsOf(state));
-    }
-    return sums;
+KeptPixels DeviceFilm::save(PixelRun run) {
+    KeptPixels kept{KeptPixels::As::States, strands_, {}};
+    kept.bytes.reserve(run.count * kept.bytesPerPixel());
+    for (const FilmSegment& segment : segments_)
+        if (const PixelRun part = partOf(segment, run); part.count > 0)
+            kept.append(statesOf(segment, part));
+    return kept;
 }
 
-void DeviceFilm::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
-    if (sums.size() != run.count || uint64_t(run.first) + run.count > area_.pixelCount())
+void DeviceFilm::restore(PixelRun run, const KeptPixels& pixels, Film& film) {
+    if (!pixels.sameKind({KeptPixels::As::States, strands_, {}}) || pixels.count() != run.count ||
+        uint64_t(run.first) + run.count > area_.pixelCount())
         throw std::invalid_argument("the saved film is not of this area");
     for (FilmSegment& segment : segments_) {
         const PixelRun part = partOf(segment, run);
         if (part.count == 0) continue;
         const uint32_t first = segment.firstPixel + part.first;
-        std::vector<gpu::PixelState> states;
-        for (const PixelSums& s : sums.subspan(first - run.first, part.count))
-            states.push_back(stateOf(s));
-        segment.pixels.upload(queue_, bytesOf(states),
-                              uint64_t(part.first) * sizeof(gpu::PixelState));
+        const auto states = pixels.states().subspan(size_t(first - run.first) * strands_,
+                                                    size_t(part.count) * strands_);
+        segment.pixels.upload(queue_, std::as_bytes(states),
+                              uint64_t(part.first) * strands_ * sizeof(gpu::PixelState));
         for (uint32_t i = 0; i < part.count; ++i)
-            film.pixels[first + i] = statisticsOf(states[i]);
+            film.pixels[first + i] = statisticsOf(states.subspan(size_t(i) * strands_, strands_));
     }
 }
 

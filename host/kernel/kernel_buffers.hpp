@@ -36,7 +36,7 @@ uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels);
 std::vector<vulkan::BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& area,
                                             const Estimator& estimator, const DeviceTuning& tuning);
 
-/// Pixels of the film that fit one buffer and one binding.
+/// Pixels of the film, with all their strands, that fit one buffer and one binding.
 uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceTuning& tuning);
 
 /// Pixels of the film for which the device has memory beside the scene.
@@ -96,7 +96,7 @@ class DeviceScene {
 struct FilmSegment {
     uint32_t firstPixel; ///< counted in the part that is rendered
     uint32_t pixelCount;
-    vulkan::Buffer pixels;
+    vulkan::Buffer pixels; ///< those of all strands of a pixel, then of the next
 };
 
 /// The statistics of a picture's pixels in the device's memory.
@@ -108,13 +108,16 @@ class DeviceFilm {
     const PictureArea& area() const { return area_; }
     const std::vector<FilmSegment>& segments() const { return segments_; }
 
-    /// The targets as work items of each segment, in their order.
+    /// Strands of each pixel.
+    uint32_t strands() const { return strands_; }
+    /// The targets as work items of each segment, in their order, with one for each strand that is
+    /// to have a sample.
     std::vector<std::vector<gpu::WorkItem>> workOf(std::span<const PixelTarget> targets) const;
-    /// The segment of a pixel, and its index there.
-    std::pair<size_t, uint32_t> segmentOf(uint32_t pixel) const;
+    /// The segment of a pixel, and the index there of its first strand's state.
+    std::pair<size_t, uint32_t> firstStrandOf(uint32_t pixel) const;
 
-    gpu::PixelState read(size_t segment, uint32_t pixel);
-    void write(size_t segment, uint32_t pixel, const gpu::PixelState& state);
+    gpu::PixelState read(size_t segment, uint32_t index);
+    void write(size_t segment, uint32_t index, const gpu::PixelState& state);
     /// Statistics of all pixels of a segment that are in `items`, into `film`.
     void readBack(size_t segment, std::span<const gpu::WorkItem> items, Film& film);
 
@@ -122,16 +125,17 @@ class DeviceFilm {
     void clear();
 
     /// Pixels to the last bit.
-    std::vector<PixelSums> save(PixelRun run);
+    KeptPixels save(PixelRun run);
     /// What was saved of these pixels; also into `film`. Throws std::invalid_argument if they are
     /// not of the area, or if their number is another.
-    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film);
+    void restore(PixelRun run, const KeptPixels& pixels, Film& film);
 
   private:
     /// Pixels of a segment, counted in it; until the next dispatch or call.
     std::span<const gpu::PixelState> statesOf(const FilmSegment& segment, PixelRun run);
 
     PictureArea area_;
+    uint32_t strands_;
     vulkan::Queue queue_;
     std::vector<FilmSegment> segments_;
     std::vector<gpu::PixelState>

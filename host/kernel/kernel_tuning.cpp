@@ -4,6 +4,7 @@
 #include "shaders/shared/interface.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <thread>
 #include <vector>
@@ -48,12 +49,19 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     return t;
 }
 
-/// A GPU needs a lane per pixel, up to a million, to hide the latency of its memory; storage
-/// buffers, because texel buffers are limited in size (2^27 texels is common, 2^16 allowed).
-/// Steps that branch, a stack in registers and sixteen steps between two services take 0.72 to 0.82
-/// of the time on an H200 (docs/results.md, "On a GPU").
+/// Lanes that a large GPU has under way at a time.
+constexpr uint32_t kLanesOfGpu = 1u << 18;
+
+/// More strands than this cost more to add up than their lanes gain.
+constexpr uint32_t kMostStrands = 16;
+
+/// A GPU needs a lane per pixel, up to a million, to hide the latency of its memory, and several
+/// at a pixel where there are few; storage buffers, because texel buffers are limited in size (2^27
+/// texels is common, 2^16 allowed). Steps that branch, a stack in registers and sixteen steps
+/// between two services take 0.72 to 0.82 of the time on an H200 (docs/results.md, "On a GPU").
 DeviceTuning forGpu() {
     DeviceTuning t;
+    t.lanesToFill = kLanesOfGpu;
     t.traversalSteps = t.richTraversalSteps = 16;
     t.registerStack = 16;
     t.stepsBranch = true;
@@ -83,6 +91,7 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, u
     t.scheduler = tuning.scheduler.value_or(t.scheduler);
     if (t.scheduler == PathScheduler::Wavefront) t.lanes = kWavefrontPaths;
     t.lanes = tuning.lanes.value_or(t.lanes);
+    t.lanesToFill = tuning.lanesToFill.value_or(t.lanesToFill);
     t.driverThreads = tuning.driverThreads.value_or(t.driverThreads);
     t.itemsPerDispatch = tuning.itemsPerDispatch.value_or(t.itemsPerDispatch);
     t.countSteps = tuning.countSteps;
@@ -119,9 +128,15 @@ void DispatchPace::took(double seconds) {
     iterations_ = uint32_t(std::clamp(wanted, std::min(16.0, double(limit_)), double(limit_)));
 }
 
+uint32_t strandsThatSuit(const DeviceTuning& tuning, uint64_t pixels) {
+    const uint64_t wanted = tuning.lanesToFill / std::max<uint64_t>(pixels, 1);
+    return std::clamp(std::bit_floor(uint32_t(wanted)), 1u, kMostStrands);
+}
+
 DeviceTuning forPixels(DeviceTuning tuning, uint64_t pixels) {
-    tuning.lanes = uint32_t(std::min<uint64_t>(tuning.lanes, pixels));
-    tuning.itemsPerDispatch = uint32_t(std::min<uint64_t>(tuning.itemsPerDispatch, pixels));
+    const uint64_t items = pixels * tuning.strands;
+    tuning.lanes = uint32_t(std::min<uint64_t>(tuning.lanes, items));
+    tuning.itemsPerDispatch = uint32_t(std::min<uint64_t>(tuning.itemsPerDispatch, items));
     return tuning;
 }
 

@@ -20,7 +20,8 @@ enum class PathScheduler {
     Wavefront,  ///< kernels that draw, trace and follow, with queues of paths between them
 };
 
-/// How the kernel runs; what is not given suits the device (resolve). None of it changes a picture.
+/// How the kernel runs; what is not given suits the device (resolve). None of it changes a picture,
+/// but for lanesToFill the rounding of its sums.
 struct KernelTuning {
     std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
     std::optional<uint32_t> workgroupSize;
@@ -29,7 +30,8 @@ struct KernelTuning {
     std::optional<uint32_t> registerStack;  ///< largest traversal stack that is in registers
     std::optional<bool> stepsBranch;        ///< a traversal step leaves out what no lane needs
     std::optional<PathScheduler> scheduler;
-    std::optional<uint32_t> lanes; ///< invocations of a dispatch; wavefront: paths under way
+    std::optional<uint32_t> lanes;       ///< invocations of a dispatch; wavefront: paths under way
+    std::optional<uint32_t> lanesToFill; ///< that keep the device busy; 0: the fewest do
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
     std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
     double targetSeconds = 0.1;               ///< of a dispatch
@@ -58,6 +60,8 @@ struct DeviceTuning {
     bool stepsBranch = false;   ///< a step of the traversal leaves out what no lane needs
     PathScheduler scheduler = PathScheduler::Persistent;
     uint32_t lanes = 1u << 20;
+    uint32_t lanesToFill = 0;   ///< that keep the device busy: smaller pictures have strands
+    uint32_t strands = 1;       ///< of a pixel (gpu::PixelState)
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;
     bool limitsLoops = false; ///< the device ends loops that take long (loopLimit())
@@ -109,7 +113,11 @@ class DispatchPace {
     uint32_t iterations_;
 };
 
-/// With no more lanes and items of a work list than there are pixels.
+/// Strands of each pixel that keep the device busy: a power of two. `pixels`: of the whole picture,
+/// so that its parts have the bytes that they have in it.
+uint32_t strandsThatSuit(const DeviceTuning& tuning, uint64_t pixels);
+
+/// With no more lanes and items of a work list than so many pixels have strands.
 DeviceTuning forPixels(DeviceTuning tuning, uint64_t pixels);
 
 } // namespace stromboli

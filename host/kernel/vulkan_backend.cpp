@@ -91,9 +91,12 @@ SeenPixel seenPixelOf(const SeenState& pixel, Seeing what, const GpuScene& scene
 // --- The backend ---------------------------------------------------------------------------------
 
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
-                       const GpuScene& scene, const PictureArea& area) {
-    const uint64_t pixels = area.pixelCount();
-    return forPixels(resolve(tuning, device, largestRowBuffer(scene, pixels)), pixels);
+                       const GpuScene& scene, const PictureArea& area, uint32_t strands) {
+    const uint64_t pixels = area.pixelCount(), whole = uint64_t(area.width) * area.height;
+    const uint64_t items = pixels * std::max(strands, 1u);
+    DeviceTuning resolved = resolve(tuning, device, largestRowBuffer(scene, items));
+    resolved.strands = strands > 0 ? strands : strandsThatSuit(resolved, whole);
+    return forPixels(resolved, pixels);
 }
 
 VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene,
@@ -123,7 +126,8 @@ void VulkanBackend::sceneHasChanged(std::span<const uint32_t> bindings) {
 
 void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& settings) {
     const Estimator& estimator = settings.estimator;
-    const DeviceTuning tuning = tuningFor(tuning_, device_, *scene_, settings.area);
+    const DeviceTuning tuning =
+        tuningFor(tuning_, device_, *scene_, settings.area, settings.strands);
     dispatcher_.reset(); // before the memory of the next is asked for
     film_.reset();
     checkMemory(device_.description(), *scene_, settings.area, estimator, tuning);
@@ -273,7 +277,7 @@ void VulkanBackend::sample(std::span<const PixelTarget> targets, Film& film,
 /// Takes the sample with frame constants and a pixel state of its own; what was there is put back
 /// at the end.
 SampleValue VulkanBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
-    const auto [segment, index] = film_->segmentOf(pixel);
+    const auto [segment, index] = film_->firstStrandOf(pixel);
     const PixelPlace place = area_.placeOf(pixel);
     const gpu::WorkItem item = {index, 1, place.x, place.y};
     gpu::Frame frame = frame_;
@@ -289,8 +293,8 @@ SampleValue VulkanBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     return {state.sum, state.rejected > 0};
 }
 
-/// A film of its own, with a pixel for each sample: all are the one of the picture, and each has as
-/// many samples behind it as to take the next with its number.
+/// A film of its own, with a state for each sample: all are of the picture's pixel, strand by
+/// strand, and each has as many samples behind it as to take the next with its number.
 std::vector<SampleValue> VulkanBackend::someAlone(uint32_t pixel, uint32_t first,
                                                   uint32_t count) const {
     const PixelPlace place = area_.placeOf(pixel);
@@ -298,8 +302,8 @@ std::vector<SampleValue> VulkanBackend::someAlone(uint32_t pixel, uint32_t first
     std::vector<gpu::PixelState> states(count);
     std::vector<gpu::WorkItem> work;
     for (uint32_t i = 0; i < count; ++i) {
-        states[i].count = i;
-        work.push_back({i, i + 1, place.x, place.y});
+        states[i].count = i / strands();
+        work.push_back({i, states[i].count + 1, place.x, place.y});
     }
     gpu::Frame frame = frame_;
     frame.firstSample = first;
@@ -326,7 +330,7 @@ std::vector<SampleValue> VulkanBackend::someAlone(uint32_t pixel, uint32_t first
 
 std::vector<SampleValue> VulkanBackend::samplesAlone(uint32_t pixel, uint32_t first,
                                                      uint32_t count) {
-    if (tuning_.scheduler != PathScheduler::Persistent)
+    if (tuning_.scheduler == PathScheduler::Wavefront)
         return Backend::samplesAlone(pixel, first, count);
     constexpr uint32_t kAtOnce = 1u << 16;
     std::vector<SampleValue> values;
@@ -378,12 +382,12 @@ void VulkanBackend::beginAt(uint32_t firstSample) {
     dispatcher_->setFrame(frame_);
 }
 
-std::vector<PixelSums> VulkanBackend::save(const Film&, PixelRun run) {
+KeptPixels VulkanBackend::save(const Film&, PixelRun run) {
     return film_->save(run);
 }
 
-void VulkanBackend::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
-    film_->restore(run, sums, film);
+void VulkanBackend::restore(PixelRun run, const KeptPixels& pixels, Film& film) {
+    film_->restore(run, pixels, film);
 }
 
 } // namespace stromboli

@@ -27,9 +27,10 @@ namespace stromboli {
 gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureArea& area,
                      const Estimator& estimator);
 
-/// How the kernel runs for pictures of this area.
+/// How the kernel runs for pictures of this area. strands: of a pixel; 0: those that suit the
+/// device.
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
-                       const GpuScene& scene, const PictureArea& area);
+                       const GpuScene& scene, const PictureArea& area, uint32_t strands = 1);
 
 /// Whether there is something to learn of which light samples to the sky arrive: not where so much
 /// of what the camera sees lies open to it that they arrive in any case, nor where the sky is seen
@@ -70,8 +71,10 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
     RecordedPath record(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return dispatcher_->counters(); }
     void beginAt(uint32_t firstSample) override;
-    std::vector<PixelSums> save(const Film& film, PixelRun run) override;
-    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film) override;
+    /// Strands of a pixel of the picture.
+    uint32_t strands() const { return film_->strands(); }
+    KeptPixels save(const Film& film, PixelRun run) override;
+    void restore(PixelRun run, const KeptPixels& pixels, Film& film) override;
 
     std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples, Seeing what,
                                uint32_t firstSample = 0) override;

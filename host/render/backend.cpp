@@ -20,32 +20,28 @@ void Backend::restoreBlocks(std::span<const ExactStatistics> blocks) {
     if (!blocks.empty()) throw std::invalid_argument("the saved film is one of blocks");
 }
 
-std::vector<PixelSums> Backend::save(const Film& film, PixelRun run) {
-    std::vector<PixelSums> sums;
-    sums.reserve(run.count);
+KeptPixels Backend::save(const Film& film, PixelRun run) {
+    KeptPixels kept;
+    kept.bytes.reserve(run.count * kept.bytesPerPixel());
     for (const PixelStatistics& p : std::span(film.pixels).subspan(run.first, run.count))
-        sums.push_back({.count = p.count,
-                        .rejected = p.rejected,
-                        .firstRejected = p.firstRejected,
-                        .first = p.mean,
-                        .second = p.m2});
-    return sums;
+        kept.append(p);
+    return kept;
 }
 
-void Backend::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
-    if (sums.size() != run.count || uint64_t(run.first) + run.count > film.pixels.size())
+void Backend::restore(PixelRun run, const KeptPixels& pixels, Film& film) {
+    if (!pixels.sameKind({}) || pixels.count() != run.count ||
+        uint64_t(run.first) + run.count > film.pixels.size())
         throw std::invalid_argument("the saved film is not of this picture");
-    for (size_t i = 0; i < sums.size(); ++i)
-        film.pixels[run.first + i] = {sums[i].count, sums[i].rejected, sums[i].firstRejected,
-                                      sums[i].first, sums[i].second};
+    for (uint32_t i = 0; i < run.count; ++i)
+        film.pixels[run.first + i] = pixels.statistics(i);
 }
 
-std::vector<PixelSums> Backend::saveAll(const Film& film) {
+KeptPixels Backend::saveAll(const Film& film) {
     return save(film, {0, uint32_t(film.pixels.size())});
 }
 
-void Backend::restoreAll(std::span<const PixelSums> sums, Film& film) {
-    restore({0, uint32_t(film.pixels.size())}, sums, film);
+void Backend::restoreAll(const KeptPixels& pixels, Film& film) {
+    restore({0, uint32_t(film.pixels.size())}, pixels, film);
 }
 
 } // namespace stromboli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/film/film.hpp"
+#include "host/render/kept_pixels.hpp"
 
 #include <glm/glm.hpp>
 
@@ -11,30 +12,12 @@
 
 namespace stromboli {
 
-// --- Sums of a pixel -----------------------------------------------------------------------------
-
-/// The statistics of a pixel to the last bit, as the backend that took its samples keeps them: what
-/// it needs to go on as if it had never stopped. Only a backend of the same kind understands them.
-struct PixelSums {
-    uint32_t count = 0, rejected = 0, firstRejected = 0xFFFFFFFFu;
-    /// The kernel: the sum of the samples and what rounding took from it. The reference: the mean.
-    glm::dvec3 first{0.0}, firstError{0.0};
-    /// The kernel: the sum of squared deviations, and what rounding took from it. The reference:
-    /// the former.
-    glm::dvec3 second{0.0}, secondError{0.0};
-};
-
 // --- Backends ------------------------------------------------------------------------------------
 
 /// A pixel that is to have `samples` samples after the pass (it may have some already).
 struct PixelTarget {
     uint32_t pixel = 0; ///< of those that are rendered, counted row by row (Film::pixels)
     uint32_t samples = 0;
-};
-
-/// Pixels one after the other, row by row.
-struct PixelRun {
-    uint32_t first = 0, count = 0; ///< counted as PixelTarget::pixel
 };
 
 /// What a backend counted since it was made.
@@ -72,16 +55,17 @@ class Backend {
     /// the first is the pixel's sample `firstSample`. Throws std::logic_error where a backend
     /// cannot.
     virtual void beginAt(uint32_t firstSample);
-    /// The statistics of pixels to the last bit; `film` is the one that sample() has filled. Here:
-    /// of a backend that keeps nothing of its own beside the film.
-    virtual std::vector<PixelSums> save(const Film& film, PixelRun run);
+    /// The statistics of pixels to the last bit; `film` is the one that sample() has filled. A run
+    /// of none says how they are kept. Here: of a backend that keeps nothing of its own beside the
+    /// film.
+    virtual KeptPixels save(const Film& film, PixelRun run);
     /// Goes on from there: in a backend of the same kind, made for the same picture. Fills in the
     /// film's pixels. Throws std::invalid_argument if their number is another, or if they are not
     /// of the picture.
-    virtual void restore(PixelRun run, std::span<const PixelSums> sums, Film& film);
+    virtual void restore(PixelRun run, const KeptPixels& pixels, Film& film);
     /// All pixels.
-    std::vector<PixelSums> saveAll(const Film& film);
-    void restoreAll(std::span<const PixelSums> sums, Film& film);
+    KeptPixels saveAll(const Film& film);
+    void restoreAll(const KeptPixels& pixels, Film& film);
     /// What a backend that adds up blocks (BlockBackend) keeps of those that are done; else
     /// nothing.
     virtual std::vector<ExactStatistics> saveBlocks() const { return {}; }

@@ -124,7 +124,7 @@ SampleValue BlockBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     return inner_->sampleAlone(pixel, sample);
 }
 
-std::vector<PixelSums> BlockBackend::save(const Film&, PixelRun run) {
+KeptPixels BlockBackend::save(const Film&, PixelRun run) {
     return inner_->save(block_, run);
 }
 
@@ -136,8 +136,8 @@ void BlockBackend::restoreBlocks(std::span<const ExactStatistics> blocks) {
     inner_->beginAt(firstSample());
 }
 
-void BlockBackend::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
-    inner_->restore(run, sums, block_);
+void BlockBackend::restore(PixelRun run, const KeptPixels& pixels, Film& film) {
+    inner_->restore(run, pixels, block_);
     for (uint32_t i = run.first; i < run.first + run.count; ++i)
         film.pixels[i] = statisticsOf(i);
 }

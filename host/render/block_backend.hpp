@@ -80,11 +80,11 @@ class BlockBackend final : public Backend {
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return inner_->counters(); }
-    /// Saves the sums of the block under way.
-    std::vector<PixelSums> save(const Film& film, PixelRun run) override;
+    /// Saves the pixels of the block under way.
+    KeptPixels save(const Film& film, PixelRun run) override;
     std::vector<ExactStatistics> saveBlocks() const override { return sums_.pixels(); }
     void restoreBlocks(std::span<const ExactStatistics> blocks) override;
-    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film) override;
+    void restore(PixelRun run, const KeptPixels& pixels, Film& film) override;
 
   private:
     uint32_t firstSample() const { return blocksDone_ * samplesPerBlock_; }

@@ -18,7 +18,7 @@ namespace stromboli {
 namespace {
 
 /// Changes with every change of what is written.
-constexpr std::string_view kVersion = "stromboli session 10";
+constexpr std::string_view kVersion = "stromboli session 11";
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, glm::dvec3>;
@@ -36,6 +36,10 @@ struct Writer {
     void resize(std::vector<T>& list) {
         uint64_t size = list.size();
         (*this)(size);
+    }
+    void bytesOf(std::vector<std::byte>& list) {
+        resize(list);
+        bytes.insert(bytes.end(), list.begin(), list.end());
     }
 };
 
@@ -55,6 +59,11 @@ struct Reader {
         (*this)(size);
         if (size > bytes.size()) throw UsageError("the saved render is cut short"); // a byte each
         list.resize(size);
+    }
+    void bytesOf(std::vector<std::byte>& list) {
+        resize(list);
+        std::ranges::copy(bytes.first(list.size()), list.begin());
+        bytes = bytes.subspan(list.size());
     }
 };
 
@@ -100,9 +109,9 @@ void pass(Archive& a, Budget& b) {
 }
 
 template <class Archive>
-void pass(Archive& a, PixelSums& s) {
-    a(s.count), a(s.rejected), a(s.firstRejected);
-    a(s.first), a(s.firstError), a(s.second), a(s.secondError);
+void pass(Archive& a, KeptPixels& p) {
+    a(p.as), a(p.strands);
+    a.bytesOf(p.bytes);
 }
 
 template <class Archive>
@@ -139,7 +148,7 @@ void pass(Archive& a, SessionState& s) {
     pass(a, s.settings.area.crop);
     pass(a, s.settings.estimator);
     pass(a, s.settings.budget);
-    passList(a, s.sums);
+    pass(a, s.pixels);
     passList(a, s.blocks);
     passList(a, s.estimate.counts);
     passList(a, s.estimate.means);
@@ -205,7 +214,7 @@ SamplingSession::SamplingSession(Backend& backend, const RenderSettings& setting
 SamplingSession::SamplingSession(Backend& backend, const SessionState& saved)
     : SamplingSession(backend, saved.settings) {
     backend_.restoreBlocks(saved.blocks);
-    backend_.restoreAll(saved.sums, film_);
+    backend_.restoreAll(saved.pixels, film_);
     estimate_.remember(saved.estimate);
     pending_ = saved.pending;
     secondsBefore_ = saved.secondsUsed;

@@ -21,7 +21,7 @@ namespace stromboli {
 /// the scene, the camera and the device.
 struct SessionState {
     RenderSettings settings;
-    std::vector<PixelSums> sums;         ///< as Backend::saveAll gives them
+    KeptPixels pixels;                   ///< as Backend::saveAll gives them
     std::vector<ExactStatistics> blocks; ///< as Backend::saveBlocks gives them
     NoiseEstimate::Memory estimate;      ///< of the passes that are done
     std::vector<PixelTarget> pending; ///< of the pass that was stopped; empty: between two passes

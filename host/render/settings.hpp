@@ -87,6 +87,9 @@ struct RenderSettings {
     PictureArea area;
     Estimator estimator;
     Budget budget;
+    /// Sums that the samples of a pixel are dealt to, so that as many lanes may work at it; 0: as
+    /// many as suit the device. A picture's bytes depend on it.
+    uint32_t strands = 0;
 };
 
 // --- Branches ------------------------------------------------------------------------------------

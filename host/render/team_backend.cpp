@@ -228,9 +228,14 @@ class TeamBackend::Pass {
 
 TeamBackend::TeamBackend(std::vector<TeamMember> members, const PictureArea& area,
                          std::function<void(const std::string&)> say)
-    : sums_(area.pixelCount()), plan_(members.size(), kLeastSeconds), say_(std::move(say)) {
-    for (TeamMember& m : members)
+    : kept_(members.front().backend->save({}, {})), plan_(members.size(), kLeastSeconds),
+      say_(std::move(say)) {
+    kept_.empty(area.pixelCount());
+    for (TeamMember& m : members) {
+        if (!m.backend->save({}, {}).sameKind(kept_))
+            throw std::logic_error("devices of a team keep pixels in unequal ways");
         players_.push_back(std::make_unique<Player>(players_.size(), std::move(m)));
+    }
 }
 
 TeamBackend::~TeamBackend() = default;
@@ -248,7 +253,7 @@ void TeamBackend::sample(Piece targets, Film& film, const PassProgress& progress
     pass.rethrow();
     for (const Piece piece : pass.returned()) { // the pass was stopped before it was taken again
         const PixelRun run = runOf(piece);
-        first().restore(run, std::span(sums_).subspan(run.first, run.count), film);
+        first().restore(run, kept_.part(run), film);
     }
 }
 
@@ -297,9 +302,8 @@ void TeamBackend::play(Player& player, Pass& pass, Film& film) {
 void TeamBackend::takePiece(Player& player, Pass& pass, Piece piece, Film& film) {
     const Stopwatch watch;
     const PixelRun run = runOf(piece);
-    const auto sums = std::span(sums_).subspan(run.first, run.count);
     Backend& backend = *player.member.backend;
-    backend.restore(run, sums, film);
+    backend.restore(run, kept_.part(run), film);
     uint64_t samples = 0;
     backend.sample(piece, film, [&](uint64_t done) {
         samples = done;
@@ -307,7 +311,7 @@ void TeamBackend::takePiece(Player& player, Pass& pass, Piece piece, Film& film)
         pass.wake();
         return !pass.stops();
     });
-    std::ranges::copy(backend.save(film, run), sums.begin());
+    kept_.put(run, backend.save(film, run));
     player.samplesOfPiece = 0;
     pass.finished(player.number, samples, watch.seconds());
 }
@@ -339,19 +343,18 @@ RenderCounters TeamBackend::counters() const {
 }
 
 void TeamBackend::beginAt(uint32_t firstSample) {
-    std::ranges::fill(sums_, PixelSums{});
+    kept_.empty(kept_.count());
     for (const size_t i : present())
         players_[i]->member.backend->beginAt(firstSample);
 }
 
-std::vector<PixelSums> TeamBackend::save(const Film&, PixelRun run) {
-    const auto sums = std::span(sums_).subspan(run.first, run.count);
-    return {sums.begin(), sums.end()};
+KeptPixels TeamBackend::save(const Film&, PixelRun run) {
+    return kept_.part(run);
 }
 
-void TeamBackend::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
-    std::ranges::copy(sums, sums_.begin() + run.first);
-    first().restore(run, sums, film);
+void TeamBackend::restore(PixelRun run, const KeptPixels& pixels, Film& film) {
+    kept_.put(run, pixels);
+    first().restore(run, pixels, film);
 }
 
 } // namespace stromboli

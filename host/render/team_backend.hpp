@@ -60,8 +60,9 @@ struct TeamMember {
 /// A backend that throws a DeviceError drops out for good, and others take its run again.
 class TeamBackend final : public Backend {
   public:
-    /// The members were made for the same picture of this area, by the same kind of backend, and
-    /// have taken no sample yet. say: is told who drops out, on the caller's thread.
+    /// The members were made for the same picture of this area, by the same kind of backend, with
+    /// the same number of strands, and have taken no sample yet. say: is told who drops out, on the
+    /// caller's thread.
     TeamBackend(std::vector<TeamMember> members, const PictureArea& area,
                 std::function<void(const std::string&)> say);
     ~TeamBackend() override;
@@ -73,8 +74,8 @@ class TeamBackend final : public Backend {
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override;
     void beginAt(uint32_t firstSample) override;
-    std::vector<PixelSums> save(const Film& film, PixelRun run) override;
-    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film) override;
+    KeptPixels save(const Film& film, PixelRun run) override;
+    void restore(PixelRun run, const KeptPixels& pixels, Film& film) override;
 
     /// Those that have not dropped out, by their numbers.
     std::vector<size_t> present() const;
@@ -89,7 +90,7 @@ class TeamBackend final : public Backend {
     Backend& first() const;
 
     std::vector<std::unique_ptr<Player>> players_;
-    std::vector<PixelSums> sums_; ///< of all pixels, when nobody has them
+    KeptPixels kept_; ///< all pixels, when nobody has them
     PiecePlan plan_;
     std::function<void(const std::string&)> say_;
 };

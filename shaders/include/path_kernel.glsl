@@ -61,8 +61,6 @@ struct Job {
     uint busySteps, allSteps;
 };
 
-uint samplesTaken(PathState path) { return path.pixelState.count + path.pixelState.rejected; }
-
 /// Is ready for a new sample, but this pixel has all of its own.
 bool wantsPixel(PathState path, Job job) { return path.phase == PHASE_NEXT && (job.item == NO_ITEM || samplesTaken(path) >= job.target); }
 
@@ -71,6 +69,7 @@ uint fetchPixelInHand(const Frame frame, inout PathState path, inout Job job) {
     const WorkItem work = fetchWorkItem(job.item);
     job.pixel = work.pixel;
     path.pixelState = fetchPixel(job.pixel);
+    path.strand = STRANDS == 0u ? 0u : job.pixel % STRANDS;
     path.pixelAt = uvec2(work.column, work.row);
     path.pixelId = path.pixelAt.y * frame.width + path.pixelAt.x;
     if (SEES) path.seen = fetchSeen(job.pixel);
@@ -93,6 +92,11 @@ void putDown(const Frame frame, inout PathState path, inout Job job) {
     job.item = NO_ITEM;
 }
 
+/// Samples that the pixel has, of all blocks and strands: the others have about as many as this one.
+uint samplesOfPixel(const Frame frame, PathState path) {
+    return frame.firstSample + (STRANDS == 0u ? 1u : STRANDS) * samplesTaken(path);
+}
+
 /// When the pixel has all its samples, goes on with the next one that no lane has taken. No pixel
 /// depends on which lane it falls to.
 void changePixel(const Frame frame, uint itemCount, inout PathState path, inout Job job, bool mayGoOn) {
@@ -103,7 +107,7 @@ void changePixel(const Frame frame, uint itemCount, inout PathState path, inout 
     const uint taken = atomicAdd(status.nextItem, 1u);
     if (taken >= itemCount) return;
     takeUp(frame, path, job, taken);
-    path.pixelState.samplesBefore = frame.firstSample + samplesTaken(path);
+    path.pixelState.samplesBefore = samplesOfPixel(frame, path);
     path.phase = PHASE_NEXT;
 }
 
@@ -113,14 +117,19 @@ const uint STOPPING_BLOCK = 0x7FFFFFFFu;
 /// The render was stopped while this lane had a pixel in hand: is its sample under way to be ended, or
 /// dropped? Samples that take long are under way more often than others, and are often brighter. A pixel
 /// that has no other sample ends it and one that began in this pass drops it, which leaves its mean
-/// without bias (Glynn and Heidelberger 1990); with samples of earlier passes the errors of ending and
-/// dropping cancel, to the first order, where it is ended with the share of those in all (docs/theory/noise.md,
-/// "A render that is stopped"). The choice knows nothing of the samples' values.
+/// without bias (Glynn and Heidelberger 1990); with samples of earlier passes, or of other strands, the errors of
+/// ending and dropping cancel, to the first order, where it is dropped with the share of what this strand has taken in
+/// this pass (docs/theory/noise.md, "A render that is stopped"). The choice knows nothing of the samples' values.
 bool endsSampleUnderWay(const Frame frame, PathState path) {
-    const uint taken = frame.firstSample + samplesTaken(path);
+    const uint taken = samplesOfPixel(frame, path);
     if (taken == 0u) return true;
-    const uint word = pcg4d(uvec4(path.pixelId, taken, STOPPING_BLOCK, frame.seed)).x;
-    return float(word >> 8u) * (1.0 / 16777216.0) * float(taken) < float(path.pixelState.samplesBefore);
+    const uint word = pcg4d(uvec4(path.pixelId, sampleIndex(frame, path), STOPPING_BLOCK, frame.seed)).x;
+    float others = float(path.pixelState.samplesBefore), all = float(taken);
+    if (STRANDS != 0u) {
+        others += float(STRANDS - 1u) * all;
+        all *= float(STRANDS);
+    }
+    return float(word >> 8u) * (1.0 / 16777216.0) * all < others;
 }
 
 /// What follows from the ray is worked out anew in each pass, not kept beside it (docs/theory/kernel.md,

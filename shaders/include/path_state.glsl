@@ -43,6 +43,7 @@ struct PathState {
     uint rayCount; ///< rays begun so far
 
     PixelState pixelState;
+    uint strand;        ///< of the pixel, whose state that is
     uint pixelId;       ///< in the whole picture: names the random numbers
     uvec2 pixelAt;      ///< column, row (from the top) in the whole picture
     float filterWeight; ///< of the sample (pixel_filter.glsl)
@@ -96,8 +97,13 @@ uint directSamples(const Frame frame) { return frame.hemisphereSamples + frame.l
 /// Scatterings that count so far.
 uint countedBounces(uint bounce, uint uncounted) { return WALKS ? bounce - uncounted : bounce; }
 
+uint samplesTaken(PathState path) { return path.pixelState.count + path.pixelState.rejected; }
+
 /// The number of the sample under way, or the next one, of this pixel.
-uint sampleIndex(const Frame frame, PathState path) { return frame.firstSample + path.pixelState.count + path.pixelState.rejected; }
+uint sampleIndex(const Frame frame, PathState path) {
+    if (STRANDS == 0u) return frame.firstSample + samplesTaken(path);
+    return frame.firstSample + path.strand + STRANDS * samplesTaken(path);
+}
 
 /// Block 0 of a path ray, `bounce` of its path, is for the ray itself and for what happens where it ends;
 /// further light samples there take the blocks after it.

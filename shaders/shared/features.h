@@ -166,9 +166,11 @@
     F(61, uint, FOCI, 0u, shades && samplesLights(settings.directLight) ? scene.foci : 0, own, \
       "lamps near rays in media", count(""), "distances in media that are drawn about lamps") \
     F(62, uint, PORTALS, 0u, aimsAtPortals(scene, settings) ? scene.portals.all.size() : 0, own, \
-      "portals", count(""), "light samples to the sky that aim at windows")
+      "portals", count(""), "light samples to the sky that aim at windows") \
+    F(63, uint, STRANDS, 0u, tuning.strands > 1 ? tuning.strands : 0, own, \
+      "lanes at a pixel", count(""), "strands of a pixel's samples, each with sums of its own (PixelState)")
 
-#define SPEC_COUNT 63
+#define SPEC_COUNT 64
 
 #ifdef __cplusplus
 namespace stromboli {

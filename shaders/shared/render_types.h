@@ -56,10 +56,10 @@ struct Dispatch {
 };
 SHARED_ROWS(Dispatch, 3);
 
-/// One pixel's work in a pass.
+/// One pixel's work in a pass, or that of one of its strands.
 struct WorkItem {
-    uint pixel;  ///< index in the film segment
-    uint target; ///< number of samples it shall have
+    uint pixel;  ///< index of its state in the film segment
+    uint target; ///< number of samples the state shall have
     uint column; ///< in the whole picture
     uint row;    ///< from the top
 };
@@ -68,6 +68,10 @@ SHARED_ROWS(WorkItem, 1);
 /// Statistics of a pixel's samples, updated one sample at a time, so that they do not depend on
 /// how samples are cut into dispatches. Sums are two floats (value + error) to stay right at
 /// 1e7 samples and more.
+///
+/// Where a picture has fewer pixels than a device has lanes, a pixel has several states one after
+/// the other, its strands: sample i is dealt to strand i mod STRANDS, which a lane of its own may
+/// take up. The host adds strands in their order, so that no sum depends on who was first.
 struct PixelState {
     vec3 sum;
     uint count; ///< samples in the sums
@@ -76,7 +80,7 @@ struct PixelState {
     vec3 m2;            ///< sum of squared deviations from the running mean (Welford 1962)
     uint firstRejected; ///< sample index; means nothing while none is
     vec3 m2Error;
-    uint samplesBefore; ///< that the pixel had when the pass under way took it up, of all blocks
+    uint samplesBefore; ///< that the pixel had when the pass under way took it up, of all blocks and strands
 };
 SHARED_CONST uint PIXEL_STATE_ROWS = 4u;
 SHARED_ROWS(PixelState, PIXEL_STATE_ROWS);

@@ -69,7 +69,7 @@ TEST(BlockBackend, GoesOnToMoreSamplesWithTheSameBytes) {
     }
     SessionState state = sessionFromBytes(toBytes(session.save()));
     EXPECT_EQ(state.blocks.front().taken(), 96u);
-    EXPECT_EQ(state.sums.front().count, 4u);
+    EXPECT_EQ(state.pixels.statistics(0).count, 4u);
     state.settings.budget.mostSamplesPerPixel = 250;
     BlockBackend second(std::make_shared<DrawnBackend>(uneven, 1), s.area, 16);
     SamplingSession more(second, state);

@@ -166,5 +166,26 @@ TEST(Statistics, MergeCountsTheFirstRejectedSampleFromTheBeginning) {
     EXPECT_EQ(whole.rejected, 3u);
 }
 
+/// Samples dealt to three strands one by one, with two that are no radiance.
+TEST(Statistics, StrandsAddUpToAllSamples) {
+    std::vector<glm::dvec3> samples = randomSamples(20, 1, 1);
+    samples[11].y = kNaN;
+    samples[7].x = -1;
+    std::vector<PixelStatistics> strands(3);
+    for (size_t i = 0; i < samples.size(); ++i)
+        strands[i % 3].add(samples[i]);
+    PixelStatistics sum;
+    for (uint32_t i = 0; i < 3; ++i)
+        sum.mergeStrand(strands[i], i, 3);
+    const PixelStatistics all = statisticsOf(samples);
+    EXPECT_EQ(sum.count, 18u);
+    EXPECT_EQ(sum.rejected, 2u);
+    EXPECT_EQ(sum.firstRejected, 7u);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(sum.mean[c], all.mean[c], 1e-14);
+        EXPECT_NEAR(sum.m2[c], all.m2[c], 1e-13);
+    }
+}
+
 } // namespace
 } // namespace stromboli

@@ -40,11 +40,9 @@ class Shared final : public Backend {
         return inner_->sampleAlone(pixel, sample);
     }
     RenderCounters counters() const override { return inner_->counters(); }
-    std::vector<PixelSums> save(const Film& film, PixelRun run) override {
-        return inner_->save(film, run);
-    }
-    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film) override {
-        inner_->restore(run, sums, film);
+    KeptPixels save(const Film& film, PixelRun run) override { return inner_->save(film, run); }
+    void restore(PixelRun run, const KeptPixels& pixels, Film& film) override {
+        inner_->restore(run, pixels, film);
     }
 
   private:
@@ -60,9 +58,11 @@ class DevicesTogether : public DeviceTest {
                              "cornell_mirror_glass.dae");
     GpuScene packed_ = packScene(scene_, buildWideBvh(scene_));
     vulkan::OpenDevice second_ = vulkan::openDevice("");
+    uint32_t strands_ = 1;
 
-    static RenderSettings settings() {
+    RenderSettings settings() const {
         RenderSettings s;
+        s.strands = strands_;
         s.area = {96, 64, {}};
         s.budget = {.mostSamplesPerPixel = kMostSamples, .meanSamplesPerPixel = 24};
         return s;
@@ -100,6 +100,12 @@ TEST_F(DevicesTogether, MakeTheBytesOfOne) {
 TEST_F(DevicesTogether, MakeTheBytesOfOneWhereOneIsLost) {
     for (const size_t lost : {0, 1})
         expectSameBytes(lost);
+}
+
+TEST_F(DevicesTogether, MakeTheBytesOfOneWherePixelsHaveStrands) {
+    strands_ = 4;
+    expectSameBytes({});
+    expectSameBytes(1);
 }
 
 } // namespace

@@ -91,16 +91,18 @@ class Session : public DeviceTest {
 };
 
 TEST_F(Session, SavedAndRestoredInTheMiddleOfPassesMakesTheSameBytes) {
-    for (const auto& [name, budget] : budgets()) {
-        const RenderSettings s = settings(budget);
-        const Film whole = uninterrupted(&Session::device, s);
-        for (const int reports : {40, 100}) {
-            int pieces = 0;
-            const Film cut = inPieces(&Session::device, s, reports, pieces);
-            EXPECT_GT(pieces, reports == 40 ? 1 : 0) << name;
-            EXPECT_EQ(differingPixels(whole, cut), 0u) << name << ", " << pieces << " pieces";
+    for (const uint32_t strands : {1u, 4u})
+        for (const auto& [name, budget] : budgets()) {
+            RenderSettings s = settings(budget);
+            s.strands = strands;
+            const Film whole = uninterrupted(&Session::device, s);
+            for (const int reports : {40, 100}) {
+                int pieces = 0;
+                const Film cut = inPieces(&Session::device, s, reports, pieces);
+                EXPECT_GT(pieces, reports == 40 ? 1 : 0) << name;
+                EXPECT_EQ(differingPixels(whole, cut), 0u) << name << ", " << pieces << " pieces";
+            }
         }
-    }
 }
 
 TEST_F(Session, TheReferenceGoesOnAsWell) {
