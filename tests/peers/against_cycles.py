@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Stromboli against Blender's Cycles on glTF models, as an independent second opinion.
 
-    apt-get install blender python3-numpy
-    python3 tests/peers/against_cycles.py ENVIRONMENT.hdr MODEL.glb...
+    python3 -m venv cycles && cycles/bin/pip install bpy==5.0.1 numpy    # Python 3.11
+    python3 tests/peers/against_cycles.py --python cycles/bin/python ENVIRONMENT.hdr MODEL.glb...
 
-renders each model with both programs, with the same camera, environment and pixel filter, and prints how
+(or, without --python, Debian's Blender: apt-get install blender python3-numpy) renders each model with both programs, with the same camera, environment and pixel filter, and prints how
 far the means are apart, in percent of Cycles', for each channel: of the model as it is, and of the same
 model with matte materials, where both programs have the same model of light (Lambert's), so that what
-differs is geometry, textures, opacity, camera or light. With --time it prints how long
-Stromboli takes to the relMSE that Cycles has at 64 samples.
+differs is geometry, textures, opacity, camera or light. With --time it prints how much processor
+time Stromboli takes, as a whole process, to the relMSE that Cycles has at 64 samples, and Cycles'
+for the render alone.
 """
 
 import argparse
@@ -17,11 +18,11 @@ import math
 import os
 import pathlib
 import re
+import resource
 import shutil
 import struct
 import subprocess
 import tempfile
-import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -37,6 +38,12 @@ def run(*command):
     if done.returncode:
         raise SystemExit(f"{command[0]} failed:\n{done.stderr}{done.stdout[-2000:]}")
     return done.stdout + done.stderr
+
+
+def processor_seconds():
+    """Of the programs that have been run so far."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def make_matte(document):
@@ -104,12 +111,12 @@ class Comparison:
 
     def stromboli(self, samples, name, *options):
         picture = self.folder / f"{name}.exr"
-        began = time.time()
+        before = processor_seconds()
         run(self.arguments.program, "render", self.model, "--env", self.arguments.environment,
             "-r", self.arguments.size, self.arguments.size, "-s", samples, "-m", BOUNCES, "--fov",
             FOV, "--look-from", *self.start, "--look-at", *self.at, "--default-light", "off",
             "-o", picture, *options)
-        return picture, time.time() - began
+        return picture, processor_seconds() - before
 
     def cycles(self, samples, name, matte, seed=0):
         picture, settings = self.folder / f"{name}.exr", self.folder / "settings.json"
@@ -118,7 +125,9 @@ class Comparison:
             "width": self.arguments.size, "height": self.arguments.size, "samples": samples,
             "bounces": BOUNCES, "fov": FOV, "from": self.start, "at": self.at, "matte": matte,
             "seed": seed, "picture": str(picture)}))
-        text = run("blender", "-b", "-P", HERE / "cycles.py", "--", settings)
+        python = self.arguments.python
+        program = [python] if python else ["blender", "-b", "-P"]
+        text = run(*program, HERE / "render_with_cycles.py", "--", settings)
         if not picture.exists():
             raise SystemExit(f"Blender wrote no picture:\n{text[-2000:]}")
         return picture, float(re.search(r"RENDER_SECONDS (\S+)", text).group(1))
@@ -143,15 +152,16 @@ class Comparison:
             if error([picture for picture, _ in ours]) <= goal:
                 break
         seconds = min(s for _, s in ours), min(s for _, s in theirs)
-        print(f"{self.model.stem}: Cycles, 64 samples: relMSE {goal:.4f} in {seconds[1]:.1f} s; "
+        print(f"{self.model.stem}: Cycles, 64 samples: relMSE {goal:.4f} in {seconds[1]:.1f} CPU s; "
               f"Stromboli, {samples} samples: {error([p for p, _ in ours]):.4f} in "
-              f"{seconds[0]:.1f} s, the whole process: {seconds[0] / seconds[1]:.2f} of the time")
+              f"{seconds[0]:.1f} CPU s, the whole process: {seconds[1] / seconds[0]:.2f} times as fast")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("environment", type=pathlib.Path)
     parser.add_argument("models", nargs="+", type=pathlib.Path)
+    parser.add_argument("--python", help="a Python that has bpy, in place of Blender's program")
     parser.add_argument("--program", default=ROOT / "build/release/bin/stromboli")
     parser.add_argument("--samples", type=int, default=1024)
     parser.add_argument("--size", type=int, default=128, help="width and height of the pictures")

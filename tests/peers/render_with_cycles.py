@@ -1,10 +1,12 @@
-"""Renders a glTF file with Cycles; run by Blender (against_cycles.py says how).
+"""Renders a glTF file with Cycles; run by Blender, or by a Python that has its module bpy
+(against_cycles.py says how).
 
-    blender -b -P cycles.py -- SETTINGS.json
+    blender -b -P render_with_cycles.py -- SETTINGS.json
+    python3 render_with_cycles.py -- SETTINGS.json
 
 SETTINGS.json: model, environment, width, height, samples, bounces, fov (degrees, of the height), from, at,
 matte (true: principled materials scatter diffusely alone), seed, picture (EXR). Writes the picture,
-linear, and prints the seconds that the render took.
+linear, and prints the seconds of processor time that the render took.
 """
 
 import builtins
@@ -17,11 +19,11 @@ import numpy
 
 # The importer of Blender 3.4 uses names that numpy has dropped.
 for name in ("bool", "int", "float", "object"):
-    if not hasattr(numpy, name):
+    if name not in vars(numpy):
         setattr(numpy, name, getattr(builtins, name))
 
-import addon_utils  # noqa: E402 (numpy first)
-import bpy  # noqa: E402
+import bpy  # noqa: E402 (numpy first)
+import addon_utils  # noqa: E402 (which bpy brings)
 import mathutils  # noqa: E402
 
 
@@ -59,7 +61,8 @@ def make_matte(tree):
         if node.inputs["Normal"].is_linked:
             hand_over("Normal", diffuse.inputs["Normal"])
         emission = tree.nodes.new("ShaderNodeEmission")
-        hand_over("Emission", emission.inputs["Color"])
+        hand_over("Emission Color" if "Emission Color" in node.inputs else "Emission",
+                  emission.inputs["Color"])
         hand_over("Emission Strength", emission.inputs["Strength"])
         both = tree.nodes.new("ShaderNodeAddShader")
         tree.links.new(diffuse.outputs["BSDF"], both.inputs[0])
@@ -128,9 +131,9 @@ def render(scene, settings):
     image.file_format, image.color_depth, image.exr_codec = "OPEN_EXR", "32", "ZIP"
     scene.view_settings.view_transform = "Raw"
     scene.render.filepath = settings["picture"]
-    start = time.time()
+    start = time.process_time()
     bpy.ops.render.render(write_still=True)
-    print("RENDER_SECONDS", time.time() - start)
+    print("RENDER_SECONDS", time.process_time() - start, "with", bpy.app.version_string)
 
 
 def main():
