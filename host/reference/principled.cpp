@@ -53,10 +53,16 @@ double schlickWeight(double cosine) {
     return std::pow(std::clamp(1 - cosine, 0.0, 1.0), 5);
 }
 
-/// The share of a lobe that reflects f0 at normal incidence which comes back to it from microfacets
-/// that light meets after the first, 1 counted (Turquin 2019).
-dvec3 givenBack(const dvec3& f0, double albedo) {
-    return 1.0 + f0 * ((1 - albedo) / albedo);
+/// What a lobe gets from microfacets that light meets after the first, 1 counted, by the
+/// reflectance of its facets on the mean (Turquin 2019; what is absorbed on the way: Kulla and
+/// Conty 2017).
+dvec3 givenBack(const dvec3& mean, double albedo, double meanAlbedo) {
+    const dvec3 kept = mean * meanAlbedo / (1.0 - mean * (1 - meanAlbedo));
+    return 1.0 + kept * ((1 - albedo) / albedo);
+}
+
+dvec3 meanOf(const dvec3& f0, double f90) {
+    return mixed(f0, f90, double(gpu::MEAN_SCHLICK_WEIGHT));
 }
 
 dvec3 turned(const dvec3& w, double angle) {
@@ -122,7 +128,7 @@ class Layers {
     dvec3 baseColor_, f0_;
     double f90_;
     Ggx ggx_{1, 1}, coatGgx_{1, 1};
-    double albedo_ = 1, coatAlbedo_ = 1, sheenAlpha_ = 1;
+    double albedo_ = 1, meanAlbedo_ = 1, coatAlbedo_ = 1, coatGiven_ = 1, sheenAlpha_ = 1;
     double opaque_, clear_; ///< shares of dielectric over diffuse, and over transmission
     double underCoat_ = 1, underSheen_ = 1;
     dvec3 diffuse_{0.0}, through_{0.0}, sheen_{0.0};
@@ -155,7 +161,8 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering, co
         coatAlbedo_ = gpu::ggxAlbedo(coatWo_.z, coatAlpha);
         const dvec3 f0(double(gpu::CLEARCOAT_F0));
         const dvec3 fresnel = mixed(f0, 1, gpu::schlickShare(coatWo_.z, coatAlpha));
-        coatShare_ = p.clearcoat * coatAlbedo_ * fresnel.x * givenBack(f0, coatAlbedo_).x;
+        coatGiven_ = givenBack(meanOf(f0, 1), coatAlbedo_, gpu::ggxMeanAlbedo(coatAlpha)).x;
+        coatShare_ = p.clearcoat * coatAlbedo_ * fresnel.x * coatGiven_;
         underCoat_ = 1 - coatShare_;
     }
     if (covered_) {
@@ -170,15 +177,16 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering, co
         underSheen_ = underCoat_;
     }
     albedo_ = gpu::ggxAlbedo(wo.z, ggx_.alphaY);
+    meanAlbedo_ = gpu::ggxMeanAlbedo(ggx_.alphaY);
     const double weight = gpu::schlickShare(wo.z, ggx_.alphaY);
     // At the cosine whose Schlick weight is the facets' mean one.
     const double cosine = 1 - std::pow(std::clamp(weight, 0.0, 1.0), 0.2);
-    meanDielectric_ = withFilm(f0_, cosine, f0_, f90_);
-    meanMetal_ = withFilm(baseColor_, cosine, baseColor_, 1);
+    meanDielectric_ = withFilm(meanOf(f0_, f90_), cosine, f0_, f90_);
+    meanMetal_ = withFilm(meanOf(baseColor_, 1), cosine, baseColor_, 1);
     const dvec3 dielectric = albedo_ * withFilm(mixed(f0_, f90_, weight), cosine, f0_, f90_) *
-                             givenBack(meanDielectric_, albedo_);
+                             givenBack(meanDielectric_, albedo_, meanAlbedo_);
     const dvec3 metal = albedo_ * withFilm(mixed(baseColor_, 1, weight), cosine, baseColor_, 1) *
-                        givenBack(meanMetal_, albedo_);
+                        givenBack(meanMetal_, albedo_, meanAlbedo_);
     const double base = underSheen_ * opaque_ * std::max(1 - largestComponent(dielectric), 0.0);
     const double passes = p.diffuseTransmission;
     diffuse_ = base * (1 - passes) * baseColor_;
@@ -217,8 +225,8 @@ Layers::Facet Layers::facetAt(double cosine, int channel) const {
     const dvec3 dielectric = withFilm(mixed(f0_, f90_, weight), met, f0_, f90_);
     Facet f;
     f.reflected = metallic * withFilm(mixed(baseColor_, 1, weight), met, baseColor_, 1) *
-                      givenBack(meanMetal_, albedo_) +
-                  opaque_ * dielectric * givenBack(meanDielectric_, albedo_);
+                      givenBack(meanMetal_, albedo_, meanAlbedo_) +
+                  opaque_ * dielectric * givenBack(meanDielectric_, albedo_, meanAlbedo_);
     if (clear_ == 0) return f;
     const dvec3 mirrored = thin_ ? dielectric : interfaceReflectance(cosine, channel);
     // All that a thin sheet's facets do not send on at first is given back.
@@ -279,8 +287,8 @@ Part Layers::coat(const dvec3& baseWi) const {
     if (!(wi.z > 0)) return {};
     const dvec3 h = glm::normalize(coatWo_ + wi);
     const dvec3 f0(double(gpu::CLEARCOAT_F0));
-    const double f = mixed(f0, 1, schlickWeight(glm::dot(coatWo_, h))).x *
-                     givenBack(f0, coatAlbedo_).x * p_.clearcoat;
+    const double f =
+        mixed(f0, 1, schlickWeight(glm::dot(coatWo_, h))).x * coatGiven_ * p_.clearcoat;
     return {
         dvec3(f * coatGgx_.density(h) * coatGgx_.visibleFromBoth(coatWo_, wi) / (4 * coatWo_.z)),
         coatGgx_.visibleDensity(coatWo_, h) / (4 * glm::dot(coatWo_, h))};

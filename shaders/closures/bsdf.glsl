@@ -69,8 +69,8 @@ struct PrincipledInterface {
     bool isInside; ///< of the volume
     float film;    ///< strength of interference in a thin film
     float filmIor, filmThickness; ///< nanometres
-    float albedo; ///< ggxAlbedo() of the microfacets
-    vec3 given, givenMetal; ///< under a film, reflectances by which light that facets scatter again is given back
+    float albedo, meanAlbedo; ///< ggxAlbedo() and ggxMeanAlbedo() of the microfacets
+    vec3 given, givenMetal; ///< under a film, mean reflectances by which light that facets scatter again is given back
 };
 
 /// What the interface and the base of Burley's model are made of.

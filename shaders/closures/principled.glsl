@@ -1,15 +1,18 @@
 // glTF's metallic-roughness material with its extensions: a metal and a dielectric, mixed; on the
 // dielectric, specular reflection over diffuse or over transmission; sheen and a clear coat on top.
 // docs/theory/surfaces.md, "Principled", has the formulas. Light that microfacets would scatter again is given
-// back to the lobe it comes from (Turquin 2019); layers get what those above them leave (albedo scaling).
+// back to the lobe it comes from (Turquin 2019, Kulla and Conty 2017); layers get what those above them leave (albedo scaling).
 
 #include "shared/albedo_fits.h"
 
 /// Each choice between lobes leaves this much to the facets; the one of reflection and transmission excepted.
 const float LEAST_FACET_SHARE = 0.015625;
 
-/// What is given back to a lobe whose facets reflect f0 at normal incidence.
-vec3 givenBack(vec3 f0, float albedo) { return 1.0 + f0 * (1.0 / albedo - 1.0); }
+/// What is given back to a lobe whose facets reflect `mean` on the mean: what is missing of a lobe that reflects everything,
+/// less what is absorbed where light meets facets again and again, the share meanAlbedo leaving each time.
+vec3 givenBack(vec3 mean, float albedo, float meanAlbedo) {
+    return 1.0 + mean * meanAlbedo / (1.0 - mean * (1.0 - meanAlbedo)) * (1.0 / albedo - 1.0);
+}
 
 vec2 facetAlpha(PrincipledParameters p) {
     const float alpha = max(p.roughness * p.roughness, p.leastAlpha);
@@ -27,8 +30,14 @@ vec3 underFilm(PrincipledInterface l, vec3 plain, float cosine, vec3 f0, float f
     return reflectance;
 }
 
-vec3 givenBy(PrincipledInterface l) { return HAS_IRIDESCENCE ? l.given : l.f0; }
-vec3 givenByMetal(PrincipledInterface l) { return HAS_IRIDESCENCE ? l.givenMetal : l.baseColor; }
+vec3 givenByDielectric(PrincipledInterface l) {
+    const vec3 mean = HAS_IRIDESCENCE ? l.given : schlick(l.f0, l.f90, MEAN_SCHLICK_WEIGHT);
+    return givenBack(mean, l.albedo, l.meanAlbedo);
+}
+vec3 givenByMetal(PrincipledInterface l) {
+    const vec3 mean = HAS_IRIDESCENCE ? l.givenMetal : schlick(l.baseColor, 1.0, MEAN_SCHLICK_WEIGHT);
+    return givenBack(mean, l.albedo, l.meanAlbedo);
+}
 
 /// Facets whose mean of Schlick's weight is this reflect about what one at this cosine does, for which the weight is so.
 float meanCosine(float weight) { return 1.0 - pow(clamp(weight, 0.0, 1.0), 0.2); }
@@ -64,7 +73,9 @@ void principledClosures(inout Closures c, PrincipledParameters p, Incidence i) {
         c.coatNormal = i.coat;
         const float coatMu = sceneHasCoatNormals() ? dot(i.wo, i.coat) : mu;
         const float albedo = ggxAlbedo(coatMu, c.coatAlpha);
-        c.coat = fromOutside && coatMu > 0.0 ? p.clearcoat * (1.0 + CLEARCOAT_F0 * (1.0 / albedo - 1.0)) : 0.0;
+        const float mean = mix(CLEARCOAT_F0, 1.0, MEAN_SCHLICK_WEIGHT);
+        const float given = givenBack(vec3(mean), albedo, ggxMeanAlbedo(c.coatAlpha)).x;
+        c.coat = fromOutside && coatMu > 0.0 ? p.clearcoat * given : 0.0;
         c.coatShare = c.coat * albedo * mix(CLEARCOAT_F0, 1.0, schlickShare(coatMu, c.coatAlpha));
         left -= c.coatShare;
     }
@@ -78,17 +89,18 @@ void principledClosures(inout Closures c, PrincipledParameters p, Incidence i) {
     // Metal and dielectric. Stretched facets are given back what narrower round ones are.
     c.interfaceWeight = max(left, 0.0);
     l.albedo = ggxAlbedo(mu, c.facets.alpha.y);
+    l.meanAlbedo = ggxMeanAlbedo(c.facets.alpha.y);
     const float weight = schlickShare(mu, c.facets.alpha.y);
     vec3 ofDielectric = schlick(l.f0, l.f90, weight), ofMetal = schlick(l.baseColor, 1.0, weight);
     if (HAS_IRIDESCENCE) {
         const float cosine = meanCosine(weight);
         ofDielectric = underFilm(l, ofDielectric, cosine, l.f0, l.f90);
         ofMetal = underFilm(l, ofMetal, cosine, l.baseColor, 1.0);
-        l.given = underFilm(l, l.f0, cosine, l.f0, l.f90);
-        l.givenMetal = underFilm(l, l.baseColor, cosine, l.baseColor, 1.0);
+        l.given = underFilm(l, schlick(l.f0, l.f90, MEAN_SCHLICK_WEIGHT), cosine, l.f0, l.f90);
+        l.givenMetal = underFilm(l, schlick(l.baseColor, 1.0, MEAN_SCHLICK_WEIGHT), cosine, l.baseColor, 1.0);
     }
-    const vec3 dielectric = l.albedo * ofDielectric * givenBack(givenBy(l), l.albedo);
-    const vec3 metal = l.albedo * ofMetal * givenBack(givenByMetal(l), l.albedo);
+    const vec3 dielectric = l.albedo * ofDielectric * givenByDielectric(l);
+    const vec3 metal = l.albedo * ofMetal * givenByMetal(l);
     const float opaque = (1.0 - l.metallic) * (1.0 - l.transmission);
     c.diffuse = c.interfaceWeight * opaque * max(1.0 - largestComponent(dielectric), 0.0) * l.baseColor;
     c.diffuseShare = mean(c.diffuse);
@@ -128,8 +140,7 @@ InterfaceLight principledLight(Closures c, float cosine, float exact, float cosT
     const vec3 metal = underFilm(l, schlick(l.baseColor, 1.0, weight), cosine, l.baseColor, 1.0);
     const float opaque = (1.0 - l.metallic) * (1.0 - l.transmission);
     InterfaceLight f = InterfaceLight(vec3(0.0), vec3(0.0), cosTransmitted, 1.0);
-    f.reflected = l.metallic * metal * givenBack(givenByMetal(l), l.albedo) +
-                  opaque * dielectric * givenBack(givenBy(l), l.albedo);
+    f.reflected = l.metallic * metal * givenByMetal(l) + opaque * dielectric * givenByDielectric(l);
     if (SCENE_TRANSMITS) {
         const float share = (1.0 - l.metallic) * l.transmission;
         vec3 mirrored = dielectric;

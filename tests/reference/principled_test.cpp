@@ -75,6 +75,44 @@ TEST(AlbedoFits, OfGgxAreAsGoodAsTheySay) {
     EXPECT_LT(worstShare, 0.0075);
 }
 
+TEST(AlbedoFits, OfTheMeanIsAsGoodAsItSays) {
+    constexpr int kViews = 64;
+    for (const double alpha : {0.01, 0.09, 0.25, 0.5, 0.75, 1.0}) {
+        double mean = 0; // the mean over squared cosines is that weighted with them
+        for (int i = 0; i < kViews; ++i)
+            mean += albedoOf(std::sqrt((i + 0.5) / kViews), alpha).whole / kViews;
+        EXPECT_NEAR(gpu::ggxMeanAlbedo(alpha), mean, 0.0031) << alpha;
+    }
+}
+
+/// Light that meets facets of one reflectance F again and again, the share Em leaving each time, is
+/// a geometric series: F Em / (1 - F (1 - Em)) of all light that comes from everywhere is
+/// reflected.
+TEST(Principled, WhatFacetsScatterAgainLosesWhatTheyAbsorb) {
+    constexpr int kViews = 24;
+    PrincipledParameters p;
+    p.metallic = 0;
+    p.baseColor = glm::vec3(0);
+    p.ior = 1e4f; // reflects as much at every angle
+    for (const float reflectance : {0.2f, 0.5f, 0.9f})
+        for (const float alpha : {0.25f, 1.0f}) {
+            p.specular = reflectance;
+            p.roughness = std::sqrt(alpha);
+            double albedo = 0;
+            for (int i = 0; i < kViews; ++i) {
+                const glm::dvec3 wo = direction(std::sqrt((i + 0.5) / kViews), 0);
+                albedo += overHemisphere(120,
+                                         [&](const glm::dvec3& wi) {
+                                             return evaluatePrincipled(p, wo, true, wi).value.x;
+                                         }) /
+                          kViews;
+            }
+            const double first = gpu::ggxMeanAlbedo(double(alpha));
+            EXPECT_NEAR(albedo, reflectance * first / (1 - reflectance * (1 - first)), 0.006)
+                << reflectance << ' ' << alpha;
+        }
+}
+
 /// GGX of alpha 1 reflects at a right angle 1 - ln 2 at first.
 TEST(AlbedoFits, KnowTheClosedForm) {
     EXPECT_NEAR(albedoOf(1, 1).whole, 1 - std::log(2.0), 1e-4);
