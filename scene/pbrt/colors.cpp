@@ -233,6 +233,11 @@ std::optional<glm::dvec3> colorOf(const Context& context, const Parameters& para
 double indexOf(const Context& context, const Parameters& parameters, double otherwise) {
     // pbrt-v3 has both names.
     const char* name = context.isV3() && !parameters.has("eta") ? "index" : "eta";
+    return indexOf(context, parameters, name, otherwise);
+}
+
+double indexOf(const Context& context, const Parameters& parameters, const char* name,
+               double otherwise) {
     const Parameter* found = parameters.find(name);
     if (!found) return otherwise;
     const std::optional<glm::dvec3> color = colorOf(context, parameters, name, ColorOf::Number);

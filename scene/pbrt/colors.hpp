@@ -29,6 +29,9 @@ glm::dvec3 blackbodyOfPeak(double kelvins);
 
 /// Index of refraction of what is inside; that of glasses by name is the one of yellow light.
 double indexOf(const Context& context, const Parameters& parameters, double otherwise);
+/// The one that a parameter of that name states.
+double indexOf(const Context& context, const Parameters& parameters, const char* name,
+               double otherwise);
 
 /// What parameters state of a metal, or copper.
 build::MetalIndex metalOf(const Context& context, const Parameters& parameters,

@@ -79,6 +79,7 @@ Form bilinearMesh(const Parameters& shape) {
     Form given;
     readVertices(shape, given);
     const build::Mesh& corners = given.mesh;
+    shape.skip({"emissionfilename"}); // by which pbrt finds light, and not how much there is
     std::vector<double> indices = shape.numbers("indices");
     if (indices.empty() && corners.positions.size() == 4) indices = {0, 1, 2, 3};
     Form form;
@@ -95,6 +96,7 @@ Form bilinearMesh(const Parameters& shape) {
             if (isThere) at[k] = size_t(indices[i + k]);
         }
         if (!isThere && ++lost) continue;
+        ++form.patches;
         const auto mixed = [&](const auto& values, double s, double t) {
             return glm::mix(glm::mix(values[at[0]], values[at[1]], s),
                             glm::mix(values[at[2]], values[at[3]], s), t);

@@ -14,6 +14,7 @@ namespace stromboli::pbrt {
 struct Form {
     build::Mesh mesh;
     bool hasCoordinates = false;        ///< of textures
+    size_t patches = 0;                 ///< of a bilinear mesh, each of which pbrt has as a shape
     std::optional<double> sphereRadius; ///< a whole sphere about the origin
     /// Makes the mesh of such a sphere, which is seldom needed and large.
     std::function<build::Mesh()> makeMesh;

@@ -1,6 +1,7 @@
 #include "scene/pbrt/load_pbrt.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/pbrt/medium_grids.hpp"
 #include "scene/pbrt/scene_reader.hpp"
 #include "scene/pbrt/statement_reader.hpp"
 #include "scene/pbrt/tokens.hpp"
@@ -23,7 +24,10 @@ Scene loadPbrt(const std::filesystem::path& file, const SceneConventions& conven
                     found.sign.empty() ? ": nothing tells which" : ", as by " + found.sign));
     pbrt::Context context{builder, files, found.version};
     pbrt::SceneReader(context).read(std::move(statements));
-    return builder.finish();
+    Scene scene = builder.finish();
+    for (Medium& medium : scene.media)
+        pbrt::strengthen(medium, context.imagingRatio);
+    return scene;
 } catch (const std::bad_alloc&) {
     throw SceneError(file.string(), 0, "", "does not fit in memory");
 }

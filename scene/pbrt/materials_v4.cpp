@@ -146,19 +146,21 @@ Surface coatedConductor(const SurfaceMaker& maker) {
     Surface surface = maker.empty(MaterialKind::Principled);
     PrincipledParameters& principled = surface.material.principled;
     maker.say("metal with a clear coat");
-    const Parameter* eta = p.find("interface.eta");
-    const double ior = eta && !eta->numbers.empty() && eta->numbers[0] >= 1 ? eta->numbers[0] : 1.5;
+    const double ior = std::max(indexOf(maker.context, p, "interface.eta", 1.5), 1.0);
     const auto roughness = [&](const std::string& prefix) {
         maker.facets(surface, prefix, 0, false);
         const glm::vec2 alpha = surface.material.facets.alpha;
         return std::sqrt(std::clamp((alpha.x + alpha.y) / 2, 0.0f, 1.0f));
     };
-    principled.clearcoat = 1;
+    // The coat of glTF has the index 1.5. One of another index reflects as much when it is looked
+    // at straight, but for those that reflect more.
+    const double facing = (ior - 1) / (ior + 1);
+    principled.clearcoat = float(std::min(facing * facing / 0.04, 1.0));
     principled.clearcoatRoughness = roughness("interface.");
     principled.roughness = roughness("conductor.");
     surface.material.facets = {};
     principled.metallic = 1;
-    const double thickness = maker.number("interface.thickness", 0.01, 0, 1e6);
+    const double thickness = maker.number("thickness", 0.01, 0, 1e6);
     const double kept = std::exp(-2 * thickness);
     const bool isStated = p.has("reflectance");
     if (isStated && !maker.pattern("reflectance", glm::dvec3(0.5)).isConstant) {

@@ -1,5 +1,6 @@
 #include "scene/pbrt/media.hpp"
 
+#include "scene/pbrt/cloud.hpp"
 #include "scene/pbrt/colors.hpp"
 #include "scene/pbrt/medium_grids.hpp"
 
@@ -33,6 +34,7 @@ build::Scattering measured(const Parameters& p, std::string_view parameter,
 void Media::define(const std::string& name, const Parameters& p,
                    const glm::dmat4& worldFromMedium) {
     const std::string kind = p.text("type").value_or("homogeneous");
+    const glm::dvec3 one(1.0);
     Medium medium;
     medium.name = name;
     const double scale = p.number("scale", 1, 0, 1e30);
@@ -49,12 +51,15 @@ void Media::define(const std::string& name, const Parameters& p,
         medium.absorption = color("sigma_a");
         medium.scattering = color("sigma_s");
         readNanoMedium(context_, p, worldFromMedium, medium);
+    } else if (kind == "cloud") {
+        medium.absorption = colorOf(context_, p, "sigma_a", ColorOf::Number).value_or(one);
+        medium.scattering = colorOf(context_, p, "sigma_s", ColorOf::Number).value_or(one);
+        medium.density = cloudOf(p, worldFromMedium);
     } else if (kind == "homogeneous" || kind == "uniformgrid" || kind == "heterogeneous") {
         const bool isGrid = kind != "homogeneous";
-        const glm::dvec3 one(1.0);
         const auto color = [&](const char* what, const glm::dvec3& otherwise) {
             return scale * colorOf(context_, p, what, ColorOf::Number)
-                               .value_or(isGrid && !context_.isV3() && !preset ? one : otherwise);
+                               .value_or(context_.isV3() || preset ? otherwise : one);
         };
         medium.absorption = color("sigma_a", usual.absorbed);
         medium.scattering = color("sigma_s", usual.scattered);
@@ -64,8 +69,8 @@ void Media::define(const std::string& name, const Parameters& p,
         else
             readEmission(context_, p, medium);
     } else {
-        p.place().fail(fmt::format("is '{}', expected homogeneous, uniformgrid, rgbgrid, nanovdb "
-                                   "or heterogeneous",
+        p.place().fail(fmt::format("is '{}', expected homogeneous, uniformgrid, rgbgrid, cloud, "
+                                   "nanovdb or heterogeneous",
                                    kind));
     }
     p.skip({"type"});

@@ -12,7 +12,7 @@
 
 namespace stromboli::pbrt {
 
-/// What pbrt takes for a medium that states nothing, per millimetre.
+/// What pbrt-v3 takes for a medium that states nothing, per millimetre.
 build::Scattering wholeMilk();
 /// What a parameter names, or whole milk, which is said.
 build::Scattering measured(const Parameters& p, std::string_view parameter,

@@ -18,18 +18,12 @@ namespace {
 
 constexpr uint64_t kMostValues = uint64_t(1) << 31;
 
-/// The size and place of the medium's grid, without values.
+/// The grid's place, without values.
 template <class Value>
-Grid<Value> emptyGrid(const Parameters& p, const glm::dmat4& worldFromMedium) {
+Grid<Value> emptyGrid(const Parameters& p, const glm::dmat4& worldFromMedium,
+                      const glm::uvec3& cells) {
     Grid<Value> grid;
-    constexpr const char* kSizes[] = {"nx", "ny", "nz"};
-    for (int axis = 0; axis < 3; ++axis) {
-        const int64_t size = p.integer(kSizes[axis]).value_or(1);
-        if (size < 1 || size > 1 << 16)
-            p.place().fail(
-                fmt::format("has '{}' {}, expected from 1 to 65536", kSizes[axis], size));
-        grid.size[axis] = uint32_t(size);
-    }
+    grid.size = cells;
     const glm::dvec3 low = p.vector("p0").value_or(glm::dvec3(0));
     const glm::dvec3 high = p.vector("p1").value_or(glm::dvec3(1));
     const glm::dvec3 size = high - low;
@@ -37,6 +31,21 @@ Grid<Value> emptyGrid(const Parameters& p, const glm::dmat4& worldFromMedium) {
     const glm::dmat4 identity(1.0);
     grid.setWorld(worldFromMedium * glm::translate(identity, low) * glm::scale(identity, size));
     return grid;
+}
+
+/// Of as many cells as the file states.
+template <class Value>
+Grid<Value> emptyGrid(const Parameters& p, const glm::dmat4& worldFromMedium) {
+    glm::uvec3 cells(1);
+    constexpr const char* kSizes[] = {"nx", "ny", "nz"};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int64_t size = p.integer(kSizes[axis]).value_or(1);
+        if (size < 1 || size > 1 << 16)
+            p.place().fail(
+                fmt::format("has '{}' {}, expected from 1 to 65536", kSizes[axis], size));
+        cells[axis] = uint32_t(size);
+    }
+    return emptyGrid<Value>(p, worldFromMedium, cells);
 }
 
 /// Fails where there is no value for each cell. found: values of a cell's `each` numbers.
@@ -60,6 +69,11 @@ ColorGrid colorsOf(const Parameters& p, const char* name, const glm::dmat4& worl
 }
 
 } // namespace
+
+DensityGrid emptyDensity(const Parameters& p, const glm::dmat4& worldFromMedium,
+                         const glm::uvec3& cells) {
+    return emptyGrid<float>(p, worldFromMedium, cells);
+}
 
 DensityGrid gridOf(const Parameters& p, const char* name, const glm::dmat4& worldFromMedium) {
     auto grid = emptyGrid<float>(p, worldFromMedium);
@@ -106,7 +120,7 @@ void readColoredGrid(const Parameters& p, double scale, const glm::dmat4& worldF
     medium.colors.extinction = std::move(extinction);
     medium.colors.scattering = std::move(scattering);
     medium.colors.scatteringIsFactor = true;
-    const double brightness = p.number("Lescale", 1, 0, 1e30);
+    const double brightness = kUnscaledLight * p.number("Lescale", 1, 0, 1e30);
     if (!p.has("Le")) return;
     ColorGrid source = colorsOf(p, "Le", worldFromMedium);
     for (glm::vec3& color : source.values)
@@ -140,7 +154,7 @@ void readGridEmission(const Context& context, const Parameters& p, Medium& mediu
     source.toUnit = density.toUnit;
     double hottest = 0;
     for (size_t i = 0; i < count; ++i) {
-        const float scale = usable(scaleOf(i));
+        const float scale = usable(scaleOf(i) * (temperatures.empty() ? 1 : kUnscaledLight));
         const double kelvins =
             temperatures.empty() ? 0 : std::max((temperatures[i] - offset) * perKelvin, 0.0);
         hottest = std::max(hottest, double(usable(kelvins)));
@@ -216,8 +230,8 @@ void readNanoMedium(const Context& context, const Parameters& p, const glm::dmat
     const double perKelvin = p.number("temperaturescale", 1, 0, 1e9);
     if (scale > 0)
         if (const auto temperature = nanoGrid(context, p, bytes, file, "temperature")) {
-            ColorGrid source =
-                glowOf(file, *density, *temperature, usable(scale), offset, perKelvin);
+            ColorGrid source = glowOf(file, *density, *temperature, usable(kUnscaledLight * scale),
+                                      offset, perKelvin);
             float hottest = 0;
             for (const glm::vec3& value : source.values)
                 hottest = std::max(hottest, value.y);
@@ -237,6 +251,14 @@ void readNanoMedium(const Context& context, const Parameters& p, const glm::dmat
     place(density->toUnit);
     if (medium.colors.source) place(medium.colors.source->toUnit);
     medium.density = std::move(*density);
+}
+
+void strengthen(Medium& medium, double factor) {
+    medium.emission *= float(factor);
+    if (!medium.colors.source) return;
+    const bool isGlow = medium.colors.glow.has_value(); // by the temperature in the second channel
+    for (glm::vec3& value : medium.colors.source->values)
+        value = float(factor) * (isGlow ? glm::vec3(value.x, value.y / float(factor), 0) : value);
 }
 
 GlowTable glowTable(double hottest) {

@@ -46,12 +46,13 @@ glm::dvec3 atUv(const Pattern& pattern, const glm::dvec2& uv) {
 } // namespace
 
 glm::dvec2 Mapping::at(const glm::dvec3& world) const {
+    const glm::dvec3 place(textureFromWorld * glm::dvec4(world, 1));
     if (kind == Kind::Planar)
-        return offset + glm::dvec2(glm::dot(world, sAxis), glm::dot(world, tAxis));
-    const glm::dvec3 p =
-        build::unit(glm::dvec3(textureFromWorld * glm::dvec4(world, 1))).value_or(glm::dvec3(0));
+        return offset + glm::dvec2(glm::dot(place, sAxis), glm::dot(place, tAxis));
+    const glm::dvec3 p = build::unit(place).value_or(glm::dvec3(0));
     const double phi = std::atan2(p.y, p.x);
-    if (kind == Kind::Cylindrical) return {(std::numbers::pi + phi) / (2 * std::numbers::pi), p.z};
+    if (kind == Kind::Cylindrical)
+        return {(std::numbers::pi + phi) / (2 * std::numbers::pi), isOfUnitSphere ? p.z : place.z};
     return {std::acos(std::clamp(p.z, -1.0, 1.0)) / std::numbers::pi,
             (phi < 0 ? phi + 2 * std::numbers::pi : phi) / (2 * std::numbers::pi)};
 }

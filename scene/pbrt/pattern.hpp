@@ -17,7 +17,8 @@ struct Mapping {
     Kind kind = Kind::Uv;
     glm::dvec2 scale{1.0}, offset{0.0};        ///< Uv: of the surface's coordinates
     glm::dvec3 sAxis{1, 0, 0}, tAxis{0, 1, 0}; ///< Planar
-    glm::dmat4 textureFromWorld{1.0};          ///< Spherical, Cylindrical
+    glm::dmat4 textureFromWorld{1.0};          ///< of any kind but Uv
+    bool isOfUnitSphere = false; ///< Cylindrical: the height is that on the sphere of radius 1
 
     bool operator==(const Mapping&) const = default;
     /// (s, t) of a place in the world, of any kind but Uv.

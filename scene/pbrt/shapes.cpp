@@ -118,8 +118,8 @@ std::optional<Pattern> Shapes::alphaOf(const Parameters& shape, const ShapeState
     return alpha;
 }
 
-/// In pbrt each triangle of a mesh is a light of its own, which `power` is of. Here a mesh is one,
-/// of as much light: the area is that of a triangle in the mean.
+/// In pbrt each triangle or patch of a mesh is a light of its own, which `power` is of. Here a mesh
+/// is one, of as much light: the area is that of one of them in the mean.
 double Shapes::lightArea(Form& form, const ShapeState& state, const std::string& kind) {
     const glm::dmat4& m = state.worldFromObject;
     if (form.sphereRadius && build::isSimilarity(m)) {
@@ -139,7 +139,7 @@ double Shapes::lightArea(Form& form, const ShapeState& state, const std::string&
         }
     const bool isMesh = kind == "trianglemesh" || kind == "plymesh" || kind == "loopsubdiv" ||
                         kind == "heightfield" || kind == "nurbs";
-    return isMesh ? area / double(std::max<size_t>(count, 1)) : area;
+    return area / double(std::max<size_t>(isMesh ? count : form.patches, 1));
 }
 
 void Shapes::fit(const BoundMaterial& material, const ShapeState& state, Form& form) {
@@ -158,13 +158,26 @@ void Shapes::fit(const BoundMaterial& material, const ShapeState& state, Form& f
 void Shapes::addForm(Form form, const std::string& kind, const Parameters& shape,
                      const ShapeState& state, std::vector<Part>* object) {
     std::optional<Emission> emission;
-    const std::optional<Pattern> alpha = alphaOf(shape, state);
+    std::optional<Pattern> alpha = alphaOf(shape, state);
+    const std::string& ofKind = state.material->kind;
+    const bool isNothing = ofKind == "interface" || ofKind == "none" || ofKind.empty();
     if (state.light && object)
         shape.replace(build::Shortfall::Model, "is an area light in an object",
+                      "a surface without light, as in pbrt");
+    else if (state.light && isNothing && !context_.isV3())
+        shape.replace(build::Shortfall::Model, "is an area light of the material 'interface'",
                       "a surface without light, as in pbrt");
     else if (state.light)
         emission = lights_.emission(state.light->kind, state.light->parameters,
                                     lightArea(form, state, kind));
+    if (emission && alpha && alpha->isConstant && !(alpha->color.x > 0) && !context_.isV3()) {
+        // It gives all its light, and hides little of what is behind it.
+        constexpr double kShare = 1.0 / 16;
+        shape.replace(build::Shortfall::Model, "is an area light that is not seen: 'alpha' is 0",
+                      "a light that is seen, and seen through");
+        alpha = Pattern::constant(glm::dvec3(kShare));
+        emission->radiance /= float(kShare);
+    }
     const BoundMaterial material =
         materials_.of(state.material, {state.textures.get(), state.materials.get()}, shape,
                       emission, alpha, state.media);

@@ -113,11 +113,12 @@ void SurfaceMaker::facets(Surface& surface, const std::string& prefix, double ot
     facets.masking = FacetMasking::Correlated;
     const bool isRemapped = parameters.flag("remaproughness", true);
     const std::string names[2] = {prefix + "uroughness", prefix + "vroughness"};
-    const bool hasBoth = parameters.has(prefix + "roughness");
-    if (hasBoth) otherwise = number(prefix + "roughness", otherwise, 0, 1e3);
+    const std::string whole = prefix + "roughness";
+    if (parameters.has(whole) && !parameters.texture(whole))
+        otherwise = number(whole, otherwise, 0, 1e3);
     Pattern roughness[2];
     for (int axis = 0; axis < 2; ++axis) {
-        const std::string& name = parameters.has(names[axis]) ? names[axis] : prefix + "roughness";
+        const std::string& name = parameters.has(names[axis]) ? names[axis] : whole;
         roughness[axis] = pattern(name, glm::dvec3(otherwise), ColorOf::Number, true);
     }
     const bool areConstant = roughness[0].isConstant && roughness[1].isConstant;

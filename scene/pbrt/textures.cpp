@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 namespace stromboli::pbrt {
 namespace {
@@ -120,6 +121,9 @@ Pattern Textures::imageMap(const Parameters& p, bool isNumber) {
     }
     uint32_t texture = *shown;
     const bool isNearest = filter == "point";
+    // Pictures of floats have no encoding. Those of 16 bits are halves here too, and are PNGs.
+    const bool isOfFloats = context_.builder.imageOf(texture).format == TexelFormat::RgbaHalf &&
+                            !std::string_view(name).ends_with(".png");
     bool isSrgb = context_.builder.textureOf(texture).srgb;
     if (isNumber || isNearest) { // a picture of its own
         Texture other = context_.builder.textureOf(texture);
@@ -132,6 +136,7 @@ Pattern Textures::imageMap(const Parameters& p, bool isNumber) {
         texture = context_.builder.addTexture(other);
     }
     const auto image = std::make_shared<TextureImage>(context_.builder.imageOf(texture));
+    if (isOfFloats) gamma = 0;
     pattern.isConstant = false;
     pattern.color = glm::dvec3(scale);
     pattern.wrap = wrap;
@@ -243,7 +248,10 @@ void Textures::readMapping(const Parameters& p, const glm::dmat4& worldFromTextu
                                   fmt::format("is '{}', expected uv, planar, spherical or "
                                               "cylindrical",
                                               kind));
-    mapping.textureFromWorld = glm::inverse(worldFromTexture);
+    // In pbrt-v3 planes lie in the world, and the height of a cylinder is that of a direction.
+    mapping.isOfUnitSphere = context_.isV3();
+    if (!context_.isV3() || mapping.kind != Mapping::Kind::Planar)
+        mapping.textureFromWorld = glm::inverse(worldFromTexture);
     if (mapping.kind != Mapping::Kind::Planar)
         context_.report().assume(fmt::format("the mapping '{}' of a texture is that of the corners "
                                              "of triangles, linear between them",

@@ -207,12 +207,16 @@ def blocks(picture_):
     return picture_[: rows * 8, : columns * 8].reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
 
 
-def compare(program, name, text):
-    """Whether both agree; prints how far."""
+def compare(program, name, text, ours=None):
+    """Whether both agree; prints how far. ours: another text of the scene for this program, of pbrt."""
     file = name + ".xml"
     with open(file, "w", encoding="utf-8") as out:
         out.write(text)
     theirs = np.array(mi.render(mi.load_file(file), spp=1024))[..., :3]
+    if ours:
+        file = name + ".pbrt"
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(ours)
     done = subprocess.run([program, "render", file, "-s", "512", "-o", "ours.exr"], capture_output=True, text=True, check=False)
     said = " ".join(line for line in done.stderr.splitlines() if line.startswith(("warning", "error")))
     if done.returncode != 0:

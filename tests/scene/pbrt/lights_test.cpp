@@ -125,10 +125,44 @@ TEST(PbrtAreaLights, ShineOnOneSide) {
     ASSERT_EQ(sphere.spheres.size(), 1u);
     expectNear(sphere.materials[sphere.spheres[0].material].emission,
                glm::dvec3(10 / (pi * 16 * pi)), 1e-5);
-    // What is not there shines all the same.
-    const Material black = materialV4("Material \"interface\" AreaLightSource \"diffuse\"");
+    // What is not there shines all the same in pbrt-v3, and not in pbrt-v4.
+    const Material black = materialV3("Material \"none\" AreaLightSource \"diffuse\"");
     EXPECT_EQ(black.opacity, 1);
     EXPECT_EQ(black.alphaMode, AlphaMode::Opaque);
+    const std::string nothing = "Material \"interface\" AreaLightSource \"diffuse\"";
+    EXPECT_EQ(materialV4(nothing).opacity, 0);
+    EXPECT_EQ(materialV4(nothing).emission, glm::vec3(0));
+    EXPECT_THAT(problemInV4(nothing + kTriangle),
+                HasSubstr("is an area light of the material 'interface'"));
+}
+
+/// In pbrt-v4 such a light is not seen, and gives all its light. Here as much of it meets surfaces.
+TEST(PbrtAreaLights, ThatAreNotSeenGiveTheirLight) {
+    const std::string light = "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] ";
+    const std::string shape =
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"float alpha\" 0";
+    const Scene scene = loadV4(light + shape);
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(m.alphaMode, AlphaMode::Blend);
+    EXPECT_LE(m.opacity, 0.1f);
+    expectNear(double(m.opacity) * glm::dvec3(m.emission), {1, 2, 3});
+    EXPECT_THAT(problemInV4(light + shape), HasSubstr("is an area light that is not seen"));
+}
+
+/// Each patch is a light of its own: two of one square metre give twice the power.
+TEST(PbrtAreaLights, HavePowerByPatches) {
+    const std::string light =
+        "AreaLightSource \"diffuse\" \"float power\" 10 Shape \"bilinearmesh\" ";
+    const auto emission = [](const Scene& scene) {
+        return glm::dvec3(scene.materials.at(scene.triangles.at(0).material).emission);
+    };
+    const std::string one = "\"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]",
+                      two =
+                          "\"point3 P\" [0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0] \"integer indices\" "
+                          "[0 1 3 4 1 2 4 5] \"string emissionfilename\" \"a.png\"";
+    expectNear(emission(loadV4(light + one)), glm::dvec3(10 / pi), 1e-4);
+    expectNear(emission(loadV4(light + two)), glm::dvec3(10 / pi), 1e-4);
+    EXPECT_EQ(problemInV4(light + two), "");
 }
 
 /// What an environment has in a direction: the texel there (scene/model/environment.hpp).

@@ -111,6 +111,26 @@ TEST(PbrtMaterials4, OthersAreReplacedAndSaid) {
     EXPECT_EQ(materialV4("Material \"coatedconductor\"").principled.clearcoat, 1);
 }
 
+/// The coat of glTF has the index 1.5: of another one it is a share, which reflects as much when it
+/// is looked at straight.
+TEST(PbrtMaterials4, CoatedConductorsHaveAThicknessAndAnIndex) {
+    const auto made = [](const std::string& more) {
+        return materialV4("Material \"coatedconductor\" \"rgb reflectance\" [.5 .5 .5] " + more)
+            .principled;
+    };
+    EXPECT_FLOAT_EQ(made("").clearcoat, 1);
+    const PrincipledParameters clear = made("\"float thickness\" 0"),
+                               thick = made("\"float thickness\" .5");
+    EXPECT_NEAR(thick.baseColor.x / clear.baseColor.x, std::exp(-2 * 0.5), 1e-5);
+    const double f = std::pow(0.33 / 2.33, 2);
+    EXPECT_NEAR(made("\"float interface.eta\" 1.33").clearcoat, f / 0.04, 1e-5);
+    // Spectra of indices, by name and as wavelengths with values.
+    EXPECT_NEAR(made("\"spectrum interface.eta\" [300 1.33 900 1.33]").clearcoat, f / 0.04, 1e-3);
+    const glm::vec3 heavy = made("\"spectrum interface.eta\" \"glass-LASF9\"").baseColor;
+    EXPECT_NEAR(heavy.x, made("\"float interface.eta\" 1.85025").baseColor.x, 1e-5);
+    EXPECT_NE(heavy.x, made("").baseColor.x);
+}
+
 TEST(PbrtMaterials4, AnInterfaceIsNotThere) {
     EXPECT_EQ(materialV4("Material \"interface\"").opacity, 0);
     EXPECT_EQ(materialV3("Material \"\"").opacity, 0);

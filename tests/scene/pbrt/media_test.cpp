@@ -13,6 +13,9 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
+/// The integral of the CIE's curve of luminance over nanometres.
+constexpr double kCurve = 106.856895;
+
 const std::string kInFog =
     "AttributeBegin MediumInterface \"fog\" \"\" Material \"interface\" Shape \"sphere\" "
     "AttributeEnd ";
@@ -34,11 +37,13 @@ TEST(PbrtMedia, AreHomogeneous) {
     const Medium m = loadV4(fog(stated)).media.at(0);
     expectColors(m, {2, 2.5f, 3}, {0.5f, 1, 1.5f});
     EXPECT_EQ(m.asymmetry, 0.25f);
-    // Whole milk.
-    expectColors(loadV4(fog("\"string type\" \"homogeneous\"")).media.at(0), {2.55f, 3.21f, 3.77f},
-                 {0.0011f, 0.0024f, 0.014f});
-    expectColors(loadV3(fog("\"string type\" \"homogeneous\"")).media.at(0), {2.55f, 3.21f, 3.77f},
-                 {0.0011f, 0.0024f, 0.014f});
+    // pbrt-v4 has 1, and pbrt-v3 whole milk.
+    expectColors(loadV4(fog("\"string type\" \"homogeneous\"")).media.at(0), glm::vec3(1),
+                 glm::vec3(1));
+    expectColors(loadV4(fog("\"string type\" \"homogeneous\" \"rgb sigma_s\" [2 3 4]")).media.at(0),
+                 {2, 3, 4}, glm::vec3(1));
+    expectColors(loadV3(fog("\"string type\" \"homogeneous\"") + "WorldEnd").media.at(0),
+                 {2.55f, 3.21f, 3.77f}, {0.0011f, 0.0024f, 0.014f});
 }
 
 TEST(PbrtMedia, Shine) {
@@ -47,6 +52,22 @@ TEST(PbrtMedia, Shine) {
                          .media.at(0);
     EXPECT_NEAR(m.emission.y / m.emission.x, 2, 1e-4);
     EXPECT_NEAR(m.emission.z / m.emission.x, 6, 1e-4);
+}
+
+/// All light of a scene is as bright as the film's exposure says, even of media before the film's.
+TEST(PbrtMedia, ShineAsTheFilmIsExposed) {
+    const std::string flat =
+        "\"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 1] \"rgb Le\" [2 2 2]";
+    const Scene scene = loadText("MakeNamedMedium \"fog\" " + flat +
+                                 " Film \"rgb\" \"float iso\" 50 WorldBegin " + kInFog);
+    EXPECT_FLOAT_EQ(scene.media.at(0).emission.x, 1);
+    const std::string hot = "MakeNamedMedium \"fog\" \"string type\" \"uniformgrid\" \"float "
+                            "density\" [1] \"float temperature\" [3000] ";
+    const Medium full = loadText("Film \"rgb\" WorldBegin " + hot + kInFog).media.at(0),
+                 half = loadText("Film \"rgb\" \"float iso\" 50 WorldBegin " + hot + kInFog)
+                            .media.at(0);
+    EXPECT_EQ(half.colors.source->values.at(0),
+              full.colors.source->values.at(0) * glm::vec3(0.5f, 1, 1));
 }
 
 TEST(PbrtMedia, AreOnBothSides) {
@@ -98,8 +119,9 @@ TEST(PbrtMedia, AreGridsOfColours) {
                    "\"rgb Le\" [1 1 1 0 0 4] \"float Lescale\" 3"))
             .media.at(0);
     const glm::dvec3 left(0.25, 0.5, 0.5), right(0.75, 0.5, 0.5);
-    expectPoint(m.at(left, left), {2, 4, 14}, {0, 0, 8}, {6, 12, 18});
-    expectPoint(m.at(right, right), {10, 10, 10}, {4, 4, 4}, {0, 0, 72});
+    // Le is not divided by the integral of the CIE's curve of luminance, as that of lamps is.
+    expectPoint(m.at(left, left), {2, 4, 14}, {0, 0, 8}, kCurve * glm::dvec3(6, 12, 18));
+    expectPoint(m.at(right, right), {10, 10, 10}, {4, 4, 4}, kCurve * glm::dvec3(0, 0, 72));
     EXPECT_TRUE(m.scatters());
     EXPECT_TRUE(m.emits());
     // One that is not stated is 1.
@@ -130,8 +152,8 @@ TEST(PbrtMedia, GlowByTheirTemperature) {
         {left, 2000, 1}, {right, 4000, 2 * 0.5}, {middle, 3000, 1.5 * 0.75}};
     for (const auto& [place, kelvins, factor] : places)
         for (int c = 0; c < 3; ++c) {
-            const double expected = factor * light(kelvins)[c];
-            EXPECT_NEAR(m.at(place, place).emission[c], expected, 1e-3 * light(kelvins).x)
+            const double expected = kCurve * factor * light(kelvins)[c];
+            EXPECT_NEAR(m.at(place, place).emission[c], expected, 1e-3 * kCurve * light(kelvins).x)
                 << kelvins;
         }
     // Luminance of 2 h c^2 / l^5 / (exp(hc / lkT) - 1) over its peak, by the eye's curve as a
@@ -169,6 +191,37 @@ TEST(PbrtMedia, ShineInGridsByFactors) {
     const glm::dvec3 left(0.25, 0.5, 0.5), right(0.75, 0.5, 0.5);
     expectPoint(m.at(left, left), {1, 2, 1}, {0, 0, 0}, {2, 4, 8});
     expectPoint(m.at(right, right), {2, 4, 2}, {0, 0, 0}, {6, 12, 24});
+}
+
+/// Below one half of the height a cloud is dense, and above it is thinner; there is nothing
+/// above 1.
+TEST(PbrtMedia, AreClouds) {
+    const auto cloud = [](const std::string& more) {
+        return loadV4(fog("\"string type\" \"cloud\" " + more)).media.at(0);
+    };
+    const Medium m = cloud("\"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [4 4 4] \"float g\" 0.5");
+    expectColors(m, glm::vec3(4), glm::vec3(0));
+    EXPECT_EQ(m.asymmetry, 0.5f);
+    ASSERT_TRUE(m.density);
+    const auto mean = [&](const Medium& medium, double y) {
+        double sum = 0;
+        for (int i = 0; i < 64 * 64; ++i)
+            sum += medium.density->at({(i % 64 + 0.5) / 64, y, (double(i / 64) + 0.5) / 64}) / 4096;
+        return sum;
+    };
+    EXPECT_NEAR(mean(m, 0.0), 1, 0.02);
+    const double low = mean(m, 0.4), middle = mean(m, 0.6), high = mean(m, 0.95);
+    EXPECT_GT(low, 0.2); // which is there without any noise
+    EXPECT_GT(low, middle);
+    EXPECT_GT(middle, high);
+    EXPECT_LT(high, 0.1);
+    // Without noise there is nothing above one half.
+    const Medium plain = cloud("\"float density\" 0");
+    EXPECT_NEAR(mean(plain, 0.25), 0.5, 0.01);
+    EXPECT_EQ(mean(plain, 0.6), 0);
+    const Medium tall = cloud("\"float density\" 0 \"point3 p0\" [0 0 0] \"point3 p1\" [1 2 1]");
+    EXPECT_EQ(tall.density->size, glm::uvec3(48, 96, 48));
+    EXPECT_NEAR(mean(tall, 0.125), 0.5, 0.01);
 }
 
 TEST(PbrtMedia, ThatCannotBeReadAreSaid) {

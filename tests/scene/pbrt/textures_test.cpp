@@ -135,6 +135,41 @@ TEST(PbrtTextures, MappingsBySpaceAreThoseOfCorners) {
     EXPECT_EQ(scene.attributes[corner].uv[1], glm::vec2(0.625f, 0.25f));
 }
 
+/// In pbrt-v4 a plane lies in the coordinates of its texture, and in pbrt-v3 in the world; there
+/// the height of a cylinder is that of the direction.
+TEST(PbrtTextures, MappingsBySpaceAreMovedWithTheTexture) {
+    const auto corner = [](const Scene& scene) {
+        const uint32_t third = scene.attributeCorners[0][2]; // (1, 1, 0)
+        return glm::dvec2(scene.attributes[third].uv[1]);
+    };
+    const auto text = [](const std::string& mapping, const std::string& kind, const char* name) {
+        return "AttributeBegin Translate 0.5 0 -2 Scale 2 1 4 " +
+               imageMap("\"string mapping\" \"" + mapping + "\"") + " Material \"" + kind +
+               "\" \"texture " + name + "\" \"t\" Identity " + kQuad + " AttributeEnd";
+    };
+    const auto v4 = [&](const std::string& mapping) {
+        return corner(loadV4(text(mapping, "diffuse", "reflectance")));
+    };
+    const auto v3 = [&](const std::string& mapping) {
+        return corner(loadV3(text(mapping, "matte", "Kd")));
+    };
+    // The corner is (0.25, 1, 0.5) there.
+    EXPECT_NEAR(glm::distance(v4("planar"), glm::dvec2(0.25, 1)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(v3("planar"), glm::dvec2(1, 1)), 0, 1e-6);
+    EXPECT_NEAR(v4("cylindrical").y, 0.5, 1e-6);
+    EXPECT_NEAR(v3("cylindrical").y, 0.5 / std::sqrt(0.0625 + 1 + 0.25), 1e-6);
+}
+
+TEST(PbrtTextures, PicturesOfFloatsHaveNoEncoding) {
+    const std::string name = writeLight("half.hdr", 1, 1, {{0.5f, 0.5f, 0.5f}});
+    const Scene scene = loadV4(
+        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + name +
+        "\" \"string encoding\" \"gamma 2\" Material \"diffuse\" \"texture reflectance\" \"t\" " +
+        kQuad);
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_NEAR(lookUp(scene, m.textures.at(0), {}).x * m.albedo.x, 0.5, 1e-3);
+}
+
 TEST(PbrtTextures, ThatAreNotThereAreSaid) {
     EXPECT_THAT(
         problemInV4("Material \"diffuse\" \"texture reflectance\" \"t\" " + std::string(kTriangle)),
@@ -152,6 +187,7 @@ TEST(PbrtTextures, RoughnessBecomesAlpha) {
                "\"r\" " +
                kQuad);
     const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_THAT(scene.report.forgiven, testing::IsEmpty());
     ASSERT_EQ(m.textures.size(), 1u);
     EXPECT_EQ(m.textures[0].slot, TextureSlot::MetallicRoughness);
     const glm::dvec4 texel = lookUp(scene, m.textures[0], {});
