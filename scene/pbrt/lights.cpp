@@ -1,5 +1,6 @@
 #include "scene/pbrt/lights.hpp"
 
+#include "scene/build/tolerate.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/pbrt/transforms.hpp"
 
@@ -252,7 +253,10 @@ Emission Lights::emission(const std::string& kind, const Parameters& p, double a
     glm::dvec3 radiance = colorOfLight(p, "L");
     double mean = 1;
     if (const std::optional<std::string> file = p.text("filename")) {
-        if (const auto texture = textures_.picture(p, *file, false, Wrap::Clamp)) {
+        std::optional<uint32_t> texture;
+        build::tolerate(context_.report(), build::Shortfall::Picture,
+                        [&] { texture = textures_.picture(p, *file, false, Wrap::Clamp); });
+        if (texture) {
             TextureUse use;
             use.slot = TextureSlot::Emission;
             context_.builder.picturesOfEmissionAreLamps();

@@ -23,6 +23,9 @@ build::Shortfall shortfallOf(std::string_view directive) {
 void SceneReader::read(std::vector<Statement> statements) {
     state_.material = materialOf(context_.isV3() ? "matte" : "diffuse",
                                  Parameters(Statement{}, context_.report()));
+    for (const Statement& statement : statements)
+        if (statement.directive() == "MakeNamedMaterial")
+            definitions_.try_emplace(statement.words.front(), &statement);
     for (Statement& statement : statements) {
         build::tolerate(context_.report(), shortfallOf(statement.directive()),
                         [&] { carryOut(statement); });
@@ -185,9 +188,14 @@ void SceneReader::nameMaterial(const Statement& s) {
 }
 
 void SceneReader::useMaterial(const Statement& s) {
-    const auto found = state_.materials->find(s.words.front());
+    const std::string& name = s.words.front();
+    // In pbrt-v4 its definition may stand behind.
+    if (const auto later = definitions_.find(name);
+        later != definitions_.end() && !context_.isV3() && !state_.materials->contains(name))
+        nameMaterial(*later->second);
+    const auto found = state_.materials->find(name);
     if (found == state_.materials->end())
-        s.place.fail(fmt::format("names the material '{}', which is not there", s.words.front()));
+        s.place.fail(fmt::format("names the material '{}', which is not there", name));
     state_.material = found->second;
 }
 

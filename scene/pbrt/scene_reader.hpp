@@ -80,6 +80,7 @@ class SceneReader {
     std::map<std::string, std::vector<Part>> objects_;
     std::string objectName_; ///< of the one that is being defined, with a mark before it
     bool isInWorld_ = false;
+    std::map<std::string, const Statement*> definitions_; ///< of named materials, the first ones
 };
 
 } // namespace stromboli::pbrt

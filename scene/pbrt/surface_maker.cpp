@@ -1,5 +1,7 @@
 #include "scene/pbrt/surface_maker.hpp"
 
+#include "scene/build/tolerate.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -307,7 +309,9 @@ void SurfaceMaker::addRelief(Surface& surface) const {
     }
     const std::optional<std::string> map = parameters.text("normalmap");
     if (!map) return;
-    const std::optional<uint32_t> texture = textures_.picture(parameters, *map, true, Wrap::Repeat);
+    std::optional<uint32_t> texture;
+    build::tolerate(context.report(), build::Shortfall::Picture,
+                    [&] { texture = textures_.picture(parameters, *map, true, Wrap::Repeat); });
     if (!texture) return;
     TextureUse use;
     use.slot = TextureSlot::Normal;

@@ -136,6 +136,13 @@ TEST(PbrtAreaLights, ShineOnOneSide) {
                 HasSubstr("is an area light of the material 'interface'"));
 }
 
+TEST(PbrtAreaLights, WithoutTheirPicturesShineEvenly) {
+    expectNear(
+        materialV4("AreaLightSource \"diffuse\" \"string filename\" \"none.png\" \"float scale\" 3")
+            .emission,
+        glm::dvec3(3));
+}
+
 /// In pbrt-v4 such a light is not seen, and gives all its light. Here as much of it meets surfaces.
 TEST(PbrtAreaLights, ThatAreNotSeenGiveTheirLight) {
     const std::string light = "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] ";

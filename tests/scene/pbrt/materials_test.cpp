@@ -131,6 +131,26 @@ TEST(PbrtMaterials4, CoatedConductorsHaveAThicknessAndAnIndex) {
     EXPECT_NE(heavy.x, made("").baseColor.x);
 }
 
+/// Names are those of the whole scene.
+TEST(PbrtMaterials4, MayBeNamedBeforeTheyAreMade) {
+    const std::string world =
+        std::string("NamedMaterial \"red\"") + kTriangle +
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [.8 .1 .1] ";
+    const Scene scene = loadV4(world);
+    expectColor(scene.materials.at(scene.triangles.at(0).material).albedo, {0.8f, 0.1f, 0.1f});
+    EXPECT_EQ(problemInV4(world), "");
+    EXPECT_THAT(loadV3(world + "WorldEnd Material \"matte\"").report.forgiven,
+                Contains(HasSubstr("names the material 'red'")));
+}
+
+TEST(PbrtMaterials4, WithoutTheirReliefAreWhatTheyAre) {
+    const std::string world =
+        "Material \"diffuse\" \"rgb reflectance\" [.8 .1 .1] \"string normalmap\" \"none.png\"";
+    expectColor(materialV4(world).albedo, {0.8f, 0.1f, 0.1f});
+    EXPECT_THAT(problemInV4(world + kTriangle),
+                HasSubstr("names the file 'none.png', which is not there"));
+}
+
 TEST(PbrtMaterials4, AnInterfaceIsNotThere) {
     EXPECT_EQ(materialV4("Material \"interface\"").opacity, 0);
     EXPECT_EQ(materialV3("Material \"\"").opacity, 0);
