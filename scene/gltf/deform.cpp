@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace stromboli::gltf {
 namespace {
 
 /// Tangents have a fourth number, which displacements do not change.
 void addDisplacements(Values& values, const std::optional<Values>& displacements, double weight) {
     if (!displacements) return;
+    const size_t width = std::min(values.width, displacements->width);
     for (size_t i = 0; i < values.count; ++i)
-        for (size_t k = 0; k < 3; ++k)
+        for (size_t k = 0; k < width; ++k)
             values.numbers[i * values.width + k] += weight * displacements->at(i)[k];
 }
 
@@ -45,6 +48,12 @@ void applyTargets(Primitive& p, std::span<const double> weights) {
         addDisplacements(p.positions, p.targets[i].positions, weights[i]);
         if (p.normals) addDisplacements(*p.normals, p.targets[i].normals, weights[i]);
         if (p.tangents) addDisplacements(*p.tangents, p.targets[i].tangents, weights[i]);
+        for (size_t set = 0; set < 2; ++set)
+            if (p.uvs[set]) addDisplacements(*p.uvs[set], p.targets[i].uvs[set], weights[i]);
+        if (!p.targets[i].colors) continue;
+        addDisplacements(*p.colors, p.targets[i].colors, weights[i]);
+        for (double& channel : p.colors->numbers)
+            channel = std::clamp(channel, 0.0, 1.0);
     }
 }
 

@@ -151,11 +151,16 @@ void MaterialReader::readSpecular() {
     PrincipledParameters& p = material_.principled;
     if (const auto extension = at_.extension("KHR_materials_ior")) {
         const double ior = extension->number("ior", 1.5);
-        if (ior == 0)
-            context_.report().ignore("an index of refraction of 0",
-                                     "that reflection does not depend on the angle; 1.5 is taken");
-        else
+        // Materials of specular and glossiness are converted so: all is reflected, but for what the
+        // specular colour takes away, as by an index without end.
+        constexpr float kEndless = 1e4f;
+        if (ior != 0)
             p.ior = float(std::max(ior, 1.0));
+        else if (p.transmission == 0)
+            p.ior = kEndless;
+        else
+            context_.report().ignore("an index of refraction of 0 of what lets light through",
+                                     "1.5 is taken");
         if (ior != 0 && ior < 1)
             extension->forgive(build::Shortfall::Number, "ior",
                                fmt::format("is {}, expected 0 or at least 1", ior));

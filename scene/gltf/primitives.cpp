@@ -40,7 +40,7 @@ class PrimitiveReader {
         for (size_t i = 0; i < 2; ++i)
             p.uvs[i] = valuesOr(wanted, fmt::format("TEXCOORD_{}", uvSets[i]), 2);
         forgiveAttribute([&] { readSkin(wanted, p); });
-        readTargets(p);
+        readTargets(p, uvSets);
         p.triangles = triangles();
         if (p.triangles.empty()) return std::nullopt;
         return p;
@@ -103,11 +103,19 @@ class PrimitiveReader {
         }
     }
 
-    void readTargets(Primitive& p) {
-        for (const Element& target : at_.items("targets"))
-            p.targets.push_back({valuesOr(target.strictly(), "POSITION", 3, false),
-                                 valuesOr(target.strictly(), "NORMAL", 3, false),
-                                 valuesOr(target.strictly(), "TANGENT", 3, false)});
+    void readTargets(Primitive& p, const std::array<uint32_t, 2>& uvSets) {
+        for (const Element& stated : at_.items("targets")) {
+            Primitive::Target& target = p.targets.emplace_back();
+            const auto read = [&](const std::string& name, size_t width) {
+                return valuesOr(stated.strictly(), name, width, false);
+            };
+            target.positions = read("POSITION", 3);
+            target.normals = read("NORMAL", 3);
+            target.tangents = read("TANGENT", 3);
+            if (p.colors) target.colors = read("COLOR_0", 0);
+            for (size_t i = 0; i < 2; ++i)
+                if (p.uvs[i]) target.uvs[i] = read(fmt::format("TEXCOORD_{}", uvSets[i]), 2);
+        }
     }
 
     std::vector<uint32_t> indices() {

@@ -21,7 +21,8 @@ struct Primitive {
     std::vector<Values> joints, weights;             ///< of 4 numbers, for each JOINTS_n
     /// Displacements of morph targets; empty where a target states none.
     struct Target {
-        std::optional<Values> positions, normals, tangents;
+        std::optional<Values> positions, normals, tangents, colors;
+        std::array<std::optional<Values>, 2> uvs; ///< of the sets that were asked for
     };
     std::vector<Target> targets;
 };

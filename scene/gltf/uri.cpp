@@ -28,14 +28,19 @@ int base64Digit(char c) {
     return -1;
 }
 
-/// Nothing if a character is not of the alphabet.
+bool isBlank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+/// Nothing if a character is not of the alphabet. Lines may be broken.
 std::optional<std::string> fromBase64(std::string_view text) {
-    while (text.ends_with('='))
+    while (text.ends_with('=') || (!text.empty() && isBlank(text.back())))
         text.remove_suffix(1);
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3 + 3);
     uint32_t bits = 0, count = 0;
     for (const char c : text) {
+        if (isBlank(c)) continue;
         const int digit = base64Digit(c);
         if (digit < 0) return std::nullopt;
         bits = bits << 6 | uint32_t(digit);
@@ -56,6 +61,36 @@ bool hasScheme(std::string_view uri) {
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '+' && c != '-' && c != '.')
             return false;
     return colon > 0;
+}
+
+/// Words of URIs are alike in capitals and small letters.
+bool isWord(std::string_view text, std::string_view word) {
+    return std::ranges::equal(text, word, [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == b;
+    });
+}
+
+bool isData(std::string_view uri) {
+    constexpr std::string_view scheme = "data:";
+    return isWord(uri.substr(0, scheme.size()), scheme);
+}
+
+/// What stands behind the comma of a data URI (RFC 2397), of which any character may be written by
+/// its code.
+std::string bytesOfData(std::string_view uri, const build::FilePlace& place) {
+    const size_t comma = uri.find(',');
+    if (comma == std::string_view::npos) place.fail("the data URI has no comma");
+    std::string_view kind = uri.substr(0, comma);
+    while (!kind.empty() && isBlank(kind.back()))
+        kind.remove_suffix(1);
+    const std::string_view encoding = kind.substr(std::min(kind.find_last_of("; "), kind.size()));
+    const std::string_view data = uri.substr(comma + 1);
+    if (encoding.empty() || !isWord(encoding.substr(1), "base64"))
+        return build::percentDecoded(data);
+    const bool hasCodes = data.find('%') != std::string_view::npos;
+    std::optional<std::string> bytes = fromBase64(hasCodes ? build::percentDecoded(data) : data);
+    if (!bytes) place.fail("the data URI is no base64");
+    return std::move(*bytes);
 }
 
 bool leadsOut(std::string name) {
@@ -104,22 +139,14 @@ build::Companion companionOf(const fs::path& folder, std::string_view uri) {
 } // namespace
 
 std::string shortUri(std::string_view uri) {
-    if (uri.starts_with("data:"))
+    if (isData(uri))
         return std::string(uri.substr(0, std::min<size_t>(uri.find(','), 60))) + ",...";
     return std::string(uri.substr(0, 200));
 }
 
 std::string readUri(const fs::path& folder, std::string_view uri, const build::FilePlace& place,
                     build::Report& report) {
-    if (uri.starts_with("data:")) {
-        const size_t comma = uri.find(',');
-        if (comma == std::string_view::npos) place.fail("the data URI has no comma");
-        if (!uri.substr(0, comma).ends_with(";base64"))
-            return build::percentDecoded(uri.substr(comma + 1));
-        std::optional<std::string> bytes = fromBase64(uri.substr(comma + 1));
-        if (!bytes) place.fail("the data URI is no base64");
-        return std::move(*bytes);
-    }
+    if (isData(uri)) return bytesOfData(uri, place);
     if (uri.empty()) place.fail("the URI is empty");
     const build::Companion found = companionOf(folder, uri);
     if (!found.path) failToFind(folder, uri, place);

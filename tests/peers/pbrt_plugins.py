@@ -164,7 +164,7 @@ def textures():
     yield "imagemap_point", nearest, two(bsdf("diffuse", file_of("tiles.exr", word("filter_type", "nearest")))), ""
     board = texture("checkerboard", '"rgb tex1" [ 0.8 0.1 0.1 ] "rgb tex2" [ 0.1 0.1 0.7 ] "float uscale" 8 "float vscale" 4') + shown
     colors = rgb("color0", "0.8,0.1,0.1") + rgb("color1", "0.1,0.1,0.7")
-    to_cells = '<transform name="to_uv"><scale x="4" y="2"/></transform>'
+    to_cells = to_uv('<scale x="4" y="2"/>')
     yield "checkerboard", board, two(bsdf("diffuse", f'<texture type="checkerboard" name="reflectance">{colors}{to_cells}</texture>')), ""
     scaled = 'Texture "a" "spectrum" "imagemap" ' + tiles + "\n" + texture("scale", '"texture tex" "a" "float scale" 0.5') + shown
     yield "scale", scaled, two(bsdf("diffuse", file_of("halved.exr"))), ""

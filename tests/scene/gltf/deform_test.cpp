@@ -50,6 +50,23 @@ TEST(GltfMorphs, NormalsMoveToo) {
     expectNear(load(g).normals.at(0), glm::normalize(glm::dvec3(1, 0, 1)));
 }
 
+/// Colours stay in their range.
+TEST(GltfMorphs, ColoursAndCoordinatesMoveToo) {
+    GltfText g;
+    const size_t colors = g.addAccessor<float>({1, 0.5f, 0, 1, 0.5f, 0, 1, 0.5f, 0}, "VEC3");
+    const size_t uvs = g.addAccessor<float>({0, 0, 1, 0, 0, 1}, "VEC2");
+    const size_t moved = g.addAccessor<float>({0, -0.5f, 2, 0, -0.5f, 2, 0, -0.5f, 2}, "VEC3");
+    const size_t shifted = g.addAccessor<float>({3, 4, 3, 4, 3, 4}, "VEC2");
+    g.addTo("images", R"("uri": "none.png")");
+    g.addTriangle(
+        fmt::format(R"(, "targets": [{{"COLOR_0": {}, "TEXCOORD_0": {}}}])", moved, shifted),
+        fmt::format(R"(, "COLOR_0": {}, "TEXCOORD_0": {})", colors, uvs));
+    g.arrays["meshes"][0].insert(1, R"("weights": [0.5], )");
+    const VertexAttributes first = load(g).attributes.at(0);
+    EXPECT_EQ(first.color, glm::vec4(1, 0.25f, 1, 1));
+    EXPECT_EQ(first.uv[0], glm::vec2(1.5f, 2));
+}
+
 /// A triangle whose second corner follows two joints, half and half (nodes 1 and 2); the others
 /// follow the first.
 GltfText withSkin() {

@@ -93,6 +93,11 @@ TEST(GltfMaterials, SpecularAndIor) {
     const Scene scene = load(withMaterial(extension("KHR_materials_ior", R"("ior": 0.5)")));
     EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("is 0.5, expected 0 or at least 1")));
     EXPECT_EQ(scene.materials.at(0).principled.ior, 1);
+    // What specular and glossiness become: the specular colour is reflected at right angles.
+    const PrincipledParameters endless =
+        materialOf(extension("KHR_materials_ior", R"("ior": 0)")).principled;
+    const double r = (double(endless.ior) - 1) / (double(endless.ior) + 1);
+    EXPECT_NEAR(r * r, 1, 1e-3);
     const Material m = materialOf(extension(
         "KHR_materials_specular",
         R"("specularFactor": 0.5, "specularColorFactor": [2, 1, 0], "specularTexture": {"index": 0},
