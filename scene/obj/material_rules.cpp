@@ -42,9 +42,7 @@ class MaterialRules {
             useDiffuse();
         useOpacity();
         useEmission();
-        if (hasTextures() && m_.normalMap)
-            use(TextureSlot::Normal, *m_.normalMap, pictures_.normals(*m_.normalMap),
-                float(m_.normalMap->strength));
+        if (hasTextures()) useRelief();
         return std::move(material_);
     }
 
@@ -52,7 +50,7 @@ class MaterialRules {
     bool hasTextures() const { return builder_.conventions().textures; }
     bool hasPbrKeys() const {
         return m_.roughness || m_.metallic || m_.sheen || m_.clearcoat || m_.clearcoatRoughness ||
-               m_.anisotropy || m_.roughnessMap || m_.metallicMap;
+               m_.anisotropy || m_.roughnessMap || m_.metallicMap || m_.specularLevel;
     }
     int illumination() const { return int(std::clamp(m_.illumination.value_or(2), 0.0, 100.0)); }
     bool isIlluminationOf(std::initializer_list<int> models) const {
@@ -148,7 +146,11 @@ class MaterialRules {
         p.anisotropy = number(m_.anisotropy, 0);
         p.anisotropyRotation = float(2 * std::numbers::pi) * number(m_.anisotropyRotation, 0);
         if (m_.ior && *m_.ior >= 1) p.ior = index();
-        if (!isBlack(m_.specular))
+        p.transmission = float(m_.transmission);
+        p.isThin = m_.transmission == 0;
+        if (m_.specularLevel)
+            p.specularColor = builder_.lightColor("Ks", glm::vec3(*m_.specularLevel));
+        if (!isBlack(m_.specular) || m_.specularMap)
             builder_.report().ignore("'Ks' of a material",
                                      "it states the metallic-roughness model ('Pr', 'Pm', ...), "
                                      "where 'Ni' says how much is reflected");
@@ -162,6 +164,10 @@ class MaterialRules {
     void useOpacity() {
         const bool textured = hasTextures();
         double opacity = m_.dissolve.value_or(1 - m_.transparency.value_or(0));
+        if (!m_.dissolve && opacity == 0) { // nobody states what is not there
+            builder_.report().assume("'Tr 1' without a 'd' is an opacity");
+            opacity = 1;
+        }
         const bool isGlassHere = material_.principled.transmission > 0;
         if (isGlassHere && (opacity < 1 || m_.opacityMap)) {
             builder_.report().ignore("'d' and 'Tr' of glass",
@@ -186,6 +192,21 @@ class MaterialRules {
                 pictures_.colorsWithOpacity(m_.diffuseMap, m_.opacityMap));
         else if (m_.diffuseMap)
             use(TextureSlot::BaseColor, *m_.diffuseMap, pictures_.colors(*m_.diffuseMap));
+    }
+
+    /// Programs write normal maps as bumps, and their colours tell.
+    void useRelief() {
+        const auto useNormals = [&](const Map& map, std::optional<uint32_t> texture) {
+            use(TextureSlot::Normal, map, texture, float(map.strength));
+        };
+        std::optional<uint32_t> bump;
+        if (m_.normalMap)
+            useNormals(*m_.normalMap, pictures_.normals(*m_.normalMap));
+        else if (m_.bumpMap)
+            useNormals(*m_.bumpMap, bump = pictures_.normalsOfBump(*m_.bumpMap));
+        if (m_.bumpMap && !bump)
+            builder_.report().ignore("'bump' of a material",
+                                     "there are normal maps ('norm') and no bump maps");
     }
 
     void useEmission() {

@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "scene/build/number_word.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/obj/blender.hpp"
 
 #include <fmt/format.h>
 
@@ -51,7 +52,14 @@ constexpr MapKeyword kMaps[] = {
     {"map_kd", &MtlMaterial::diffuseMap},   {"map_ks", &MtlMaterial::specularMap},
     {"map_ke", &MtlMaterial::emissionMap},  {"map_d", &MtlMaterial::opacityMap},
     {"map_pr", &MtlMaterial::roughnessMap}, {"map_pm", &MtlMaterial::metallicMap},
-    {"norm", &MtlMaterial::normalMap},      {"map_kn", &MtlMaterial::normalMap}};
+    {"norm", &MtlMaterial::normalMap},      {"map_kn", &MtlMaterial::normalMap},
+    {"bump", &MtlMaterial::bumpMap},        {"map_bump", &MtlMaterial::bumpMap}};
+
+// What has a meaning in files of Blender only.
+constexpr ColorKeyword kBlenderColors[] = {{"ka", &MtlMaterial::ambient}};
+constexpr MapKeyword kBlenderMaps[] = {{"map_ns", &MtlMaterial::exponentMap},
+                                       {"map_refl", &MtlMaterial::reflectionMap},
+                                       {"refl", &MtlMaterial::reflectionMap}};
 
 struct IgnoredKeyword {
     std::string_view name, why;
@@ -59,8 +67,6 @@ struct IgnoredKeyword {
 constexpr IgnoredKeyword kIgnored[] = {
     {"ka", "light from everywhere is computed, not stated"},
     {"map_ka", "light from everywhere is computed, not stated"},
-    {"bump", "there are normal maps ('norm') and no bump maps"},
-    {"map_bump", "there are normal maps ('norm') and no bump maps"},
     {"disp", "surfaces stay where they are"},
     {"map_disp", "surfaces stay where they are"},
     {"decal", "there is one picture for each colour"},
@@ -94,11 +100,19 @@ std::string inSmallLetters(std::string_view text) {
 class MtlReader {
   public:
     MtlReader(const std::filesystem::path& file, build::Report& report)
-        : statements_(file.string(), build::readFile(file)), report_(report) {}
+        : MtlReader(file, build::readFile(file), report) {}
+
+    MtlReader(const std::filesystem::path& file, const std::string& text, build::Report& report)
+        : statements_(file.string(), text), blender_(blenderOf(text)), report_(report) {}
 
     std::vector<MtlMaterial> read() {
         while (statements_.next())
             readStatement(inSmallLetters(statements_.keyword().substr(0, 40)));
+        if (blender_ && !materials_.empty())
+            report_.assume("materials are those of Blender, which writes roughness as Ns, a share "
+                           "of what dielectrics reflect as Ks and normal maps as map_Bump");
+        for (MtlMaterial& material : materials_)
+            if (blender_) takeMeaningOf(*blender_, material);
         return std::move(materials_);
     }
 
@@ -113,12 +127,15 @@ class MtlReader {
             materials_.back().name = statements_.rest();
             return;
         }
-        if (const auto* ignored = find(kIgnored, keyword))
+        const auto* ofBlender = blender_ ? find(kBlenderColors, keyword) : nullptr;
+        const auto* mapOfBlender = blender_ ? find(kBlenderMaps, keyword) : nullptr;
+        const bool isRead = ofBlender || mapOfBlender;
+        if (const auto* ignored = find(kIgnored, keyword); ignored && !isRead)
             return report_.ignore(fmt::format("'{}' of a material", statements_.keyword()),
                                   std::string(ignored->why));
-        const auto* color = find(kColors, keyword);
+        const auto* color = ofBlender ? ofBlender : find(kColors, keyword);
         const auto* fact = find(kNumbers, keyword);
-        const auto* map = find(kMaps, keyword);
+        const auto* map = mapOfBlender ? mapOfBlender : find(kMaps, keyword);
         if (!color && !fact && !map)
             return report_.forgive(statements_.place(), "is no statement of MTL that is known",
                                    "the line is skipped");
@@ -298,6 +315,7 @@ class MtlReader {
     }
 
     Statements statements_;
+    std::optional<Blender> blender_;
     build::Report& report_;
     std::vector<MtlMaterial> materials_;
 };

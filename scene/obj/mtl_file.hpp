@@ -41,6 +41,13 @@ struct MtlMaterial {
     std::optional<double> illumination;                                  ///< illum
     std::optional<Map> diffuseMap, specularMap, emissionMap, opacityMap; ///< map_Kd, Ks, Ke, d
     std::optional<Map> roughnessMap, metallicMap, normalMap;             ///< map_Pr, map_Pm, norm
+    std::optional<Map> bumpMap;                                          ///< map_bump
+    /// Of files of Blender: Ka, map_Ns and map_refl.
+    std::optional<glm::dvec3> ambient;
+    std::optional<Map> exponentMap, reflectionMap;
+    /// Factors of what a dielectric of its index reflects, in place of Ks.
+    std::optional<glm::dvec3> specularLevel;
+    double transmission = 0; ///< the share of light that goes in, which the colour tints
 };
 
 /// Reads the materials of an MTL file, in the file's order. Throws SceneError with its name and

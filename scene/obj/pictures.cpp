@@ -2,6 +2,7 @@
 
 #include "host/core/system.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/build/texels.hpp"
 #include "scene/images/load_texture.hpp"
 #include "scene/images/texture_image.hpp"
 #include "scene/obj/texel_mix.hpp"
@@ -23,6 +24,19 @@ std::string keyOf(const Map& map) {
 
 std::string keyOf(const std::optional<Map>& map) {
     return map ? keyOf(*map) : "";
+}
+
+/// Directions are as blue as the z axis in the mean, and greys of heights are not.
+bool lookLikeNormals(const TextureImage& image) {
+    const size_t count = size_t(image.width) * image.height;
+    constexpr size_t kMostTexels = 4096;
+    const size_t step = std::max<size_t>(count / kMostTexels, 1);
+    glm::dvec3 sum(0.0);
+    double looked = 0;
+    for (size_t i = 0; i < count; i += step, ++looked)
+        sum += build::colorAt(image, i, false);
+    const glm::dvec3 away = glm::abs(sum / looked - glm::dvec3(0.5, 0.5, 0.9));
+    return away.x < 0.15 && away.y < 0.15 && away.z < 0.2;
 }
 
 } // namespace
@@ -105,6 +119,14 @@ std::optional<uint32_t> Pictures::normals(const Map& map) {
     return once("normals\n" + keyOf(map), [&]() -> std::optional<uint32_t> {
         std::optional<TextureImage> image = read(map, false);
         if (!image) return std::nullopt;
+        return keep(std::move(*image), map, false);
+    });
+}
+
+std::optional<uint32_t> Pictures::normalsOfBump(const Map& map) {
+    return once("bumps\n" + keyOf(map), [&]() -> std::optional<uint32_t> {
+        std::optional<TextureImage> image = read(map, false);
+        if (!image || !lookLikeNormals(*image)) return std::nullopt;
         return keep(std::move(*image), map, false);
     });
 }

@@ -30,6 +30,8 @@ class Pictures {
                                               const std::optional<Map>& metallic);
     /// Directions.
     std::optional<uint32_t> normals(const Map& map);
+    /// Directions that programs write as bumps; nothing for heights.
+    std::optional<uint32_t> normalsOfBump(const Map& map);
 
   private:
     build::Companion fileOf(const Map& map) const;

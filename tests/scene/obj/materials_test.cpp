@@ -12,6 +12,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// A folder with pictures of 2 x 1 pixels.
 class ObjMaterials : public testing::Test {
@@ -110,7 +111,7 @@ TEST_F(ObjMaterials, Opacity) {
     EXPECT_FLOAT_EQ(material("d 0.25\n").opacity, 0.25f);
     EXPECT_FLOAT_EQ(material("Tr 0.25\n").opacity, 0.75f);
     EXPECT_FLOAT_EQ(material("d 1\nTr 1\n").opacity, 1); // d counts
-    EXPECT_THAT(load("Tr 1\n").report.warnings, Contains(HasSubstr("is not seen")));
+    EXPECT_THAT(load("d 0\n").report.warnings, Contains(HasSubstr("is not seen")));
     EXPECT_THAT(load("d 7\n").report.warnings, Contains(HasSubstr("clamped")));
 }
 
@@ -190,6 +191,69 @@ TEST_F(ObjMaterials, NormalMapsHaveTangents) {
     EXPECT_NEAR(scene.attributes.at(0).tangent.x, 1, 1e-6); // u grows along x
     EXPECT_EQ(scene.attributes.at(0).tangent.w, 1);
     EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("1 'bump' of a material")));
+}
+
+/// A picture as blue as directions are.
+TEST_F(ObjMaterials, NormalMapsMayBeCalledBumps) {
+    folder_.write("blue.png", png8(2, 1, 3, {128, 128, 255, 140, 120, 250}));
+    const Scene scene = load("map_Bump -bm 0.5 blue.png\n");
+    const TextureUse* use = useOf(scene.materials[0], TextureSlot::Normal);
+    ASSERT_TRUE(use);
+    EXPECT_EQ(use->scale, 0.5f);
+    EXPECT_THAT(scene.report.ignored, Not(Contains(HasSubstr("bump"))));
+    EXPECT_FALSE(useOf(load("map_Bump mask.png\n").materials[0], TextureSlot::Normal));
+}
+
+/// Blender 4.5's words for a Principled BSDF of roughness 1/2, of a metal, and of pictures.
+TEST_F(ObjMaterials, OfBlenderMeanItsSurfaces) {
+    const auto made = [&](const std::string& head, const std::string& statements) {
+        folder_.write("m.mtl", head + "newmtl a\n" + statements);
+        return folder_.load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                            "usemtl a\nf 1/1 2/2 3/3\n");
+    };
+    const std::string head = "# Blender 4.5.15 LTS MTL File: 'None'\n# www.blender.org\n\n";
+    const Scene plain = made(
+        head, "Ns 250\nKa 1 1 1\nKd 0.8 0.1 0.1\nKs 0.5 0.5 0.5\nKe 0 0 0\nNi 1.5\nd 1\nillum 2\n");
+    const PrincipledParameters& p = plain.materials.at(0).principled;
+    EXPECT_FLOAT_EQ(p.roughness, 0.5f);
+    EXPECT_EQ(p.specularColor, glm::vec3(1)); // 4 %
+    EXPECT_EQ(p.metallic, 0);
+    EXPECT_EQ(p.baseColor, glm::vec3(0.8f, 0.1f, 0.1f));
+    EXPECT_THAT(plain.report.ignored, IsEmpty());
+    const std::string gold =
+        "Ns 640\nKa 0.75 0.75 0.75\nKd 1 0.7 0.3\nKs 0.5 0.5 0.5\nNi 1.5\nillum 3\n";
+    EXPECT_FLOAT_EQ(made(head, gold).materials.at(0).principled.metallic, 0.75f);
+    EXPECT_NEAR(made(head, gold).materials.at(0).principled.roughness, 0.2, 1e-6);
+    // Before 3.1 the version does not stand there, and smooth surfaces have 900.
+    EXPECT_FLOAT_EQ(made("# Blender MTL File: 'a.blend'\n", "Ns 225\nKs 0.5 0.5 0.5\n")
+                        .materials.at(0)
+                        .principled.roughness,
+                    0.5f);
+    const PrincipledParameters glass =
+        made(head, "Kd 1 0.5 1\nKs 0.5 0.5 0.5\nNi 1.45\nPr 0\nTf 1 1 1\n")
+            .materials.at(0)
+            .principled;
+    EXPECT_EQ(glass.transmission, 1);
+    EXPECT_FALSE(glass.isThin);
+    EXPECT_FLOAT_EQ(glass.ior, 1.45f);
+    // Others mean what they say.
+    EXPECT_NE(made("# by hand\n", gold).materials.at(0).principled.metallic, 0.75f);
+    const Scene pictures = made(
+        head,
+        "Ns 250\nKs 0.5 0.5 0.5\nmap_Ns mask.png\nmap_refl mask.png\nmap_Bump -bm 2 mask.png\n");
+    const Material& m = pictures.materials.at(0);
+    EXPECT_EQ(m.principled.roughness, 1);
+    EXPECT_EQ(m.principled.metallic, 1);
+    EXPECT_EQ(imageOf(pictures, TextureSlot::MetallicRoughness).words[1], 0xFF3333FFu);
+    ASSERT_TRUE(useOf(m, TextureSlot::Normal));
+    EXPECT_EQ(useOf(m, TextureSlot::Normal)->scale, 2);
+}
+
+/// A material that is not seen is one that nobody states.
+TEST_F(ObjMaterials, TransparencyOfOneAloneIsAnOpacity) {
+    EXPECT_EQ(material("Kd 1 1 1\nTr 1\n").alphaMode, AlphaMode::Opaque);
+    EXPECT_FLOAT_EQ(material("Kd 1 1 1\nTr 0.75\n").opacity, 0.25f);
+    EXPECT_EQ(material("Kd 1 1 1\nd 0\nTr 1\n").opacity, 0);
 }
 
 TEST_F(ObjMaterials, PicturesLieInTheFolder) {
