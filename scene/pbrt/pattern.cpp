@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace stromboli::pbrt {
 namespace {
 
 constexpr uint32_t kMostTexels = 2048; ///< of a side of pictures that are made
+constexpr uint32_t kLeastTexels = 512; ///< of those that are made of others in other places
 
 /// The permutation of Perlin's paper.
 constexpr std::array<uint8_t, 256> kPermutation = {
@@ -41,6 +43,21 @@ double gradient(int x, int y, int z, const glm::dvec3& d) {
 /// The pattern by the surface's own coordinates.
 glm::dvec3 atUv(const Pattern& pattern, const glm::dvec2& uv) {
     return pattern.valueAt(pattern.mapping.scale * uv + pattern.mapping.offset);
+}
+
+/// So many units of the surface's coordinates, after which all parts begin again, or 1.
+glm::dvec2 commonPeriod(std::span<const Pattern> parts) {
+    constexpr int kMost = 4;
+    glm::dvec2 period(1);
+    for (const int axis : {0, 1})
+        for (int units = kMost; units > 0; --units) {
+            const auto beginsAgain = [&](const Pattern& part) {
+                const double times = units * part.mapping.scale[axis] / part.period[axis];
+                return part.isConstant || std::abs(times - std::round(times)) < 1e-6;
+            };
+            if (std::ranges::all_of(parts, beginsAgain)) period[axis] = units;
+        }
+    return period;
 }
 
 } // namespace
@@ -98,14 +115,19 @@ bool combine(const Pattern& a, const Pattern& b, const Pattern& c, const Combine
     result.isConstant = false;
     result.isNearest = true;
     const bool isByUv = !areAlike && first->mapping.kind == Mapping::Kind::Uv;
+    // Places between texels of one are no such places of another.
+    if (isByUv) {
+        result.period = commonPeriod(parts);
+        result.texels = glm::uvec2(kLeastTexels);
+    }
     if (!isByUv) result.mapping = first->mapping;
     for (const Pattern& part : parts) {
         if (part.isConstant) continue;
         result.isNearest = result.isNearest && part.isNearest;
         if (part.wrap != Wrap::Repeat) result.wrap = part.wrap;
         if (isByUv) {
-            const glm::dvec2 needed =
-                glm::dvec2(part.texels) * glm::abs(part.mapping.scale) / part.period;
+            const glm::dvec2 needed = glm::dvec2(part.texels) * result.period *
+                                      glm::abs(part.mapping.scale) / part.period;
             result.texels =
                 glm::max(result.texels, glm::uvec2(glm::clamp(needed, 1.0, double(kMostTexels))));
         } else {

@@ -154,7 +154,8 @@ Pattern Textures::imageMap(const Parameters& p, bool isNumber) {
 }
 
 /// Squares of one unit, the first one at the origin.
-Pattern Textures::checkerboard(const Parameters& p, const TextureTable& table, bool isNumber) {
+Pattern Textures::checkerboard(const Parameters& p, const TextureTable& table, bool isNumber,
+                               const Mapping& mapping) {
     const Pattern one = pattern(p, "tex1", ColorOf::Number, glm::dvec3(1), table, isNumber),
                   two = pattern(p, "tex2", ColorOf::Number, glm::dvec3(0), table, isNumber);
     p.skip({"aamode"});
@@ -162,6 +163,7 @@ Pattern Textures::checkerboard(const Parameters& p, const TextureTable& table, b
         return meanOfSpace(p, (one.mean() + two.mean()) / 2.0);
     Pattern squares;
     squares.isConstant = false;
+    squares.mapping = mapping;
     squares.isNearest = true;
     squares.period = glm::dvec2(2);
     squares.texels = glm::uvec2(2);
@@ -177,12 +179,14 @@ Pattern Textures::checkerboard(const Parameters& p, const TextureTable& table, b
 }
 
 /// Disks in cells of one unit, of which noise says where they are.
-Pattern Textures::dots(const Parameters& p, const TextureTable& table, bool isNumber) {
+Pattern Textures::dots(const Parameters& p, const TextureTable& table, bool isNumber,
+                       const Mapping& mapping) {
     const Pattern inside = pattern(p, "inside", ColorOf::Number, glm::dvec3(1), table, isNumber),
                   outside = pattern(p, "outside", ColorOf::Number, glm::dvec3(0), table, isNumber);
     Pattern disks;
     constexpr double kCells = 8;
     disks.isConstant = false;
+    disks.mapping = mapping;
     disks.period = glm::dvec2(kCells);
     disks.texels = glm::uvec2(kMadeSide);
     disks.at = [](const glm::dvec2& st) {
@@ -264,7 +268,9 @@ PatternPointer Textures::make(const std::string& kind, bool isNumber, const Para
         return pattern(p, name, ColorOf::Number, glm::dvec3(otherwise), table, isNumber);
     };
     Pattern result;
-    bool hasMapping = true;
+    const bool hasMapping = kind != "scale" && kind != "mix" && kind != "directionmix";
+    Mapping mapping;
+    if (hasMapping) readMapping(p, worldFromTexture, mapping);
     if (kind == "constant") {
         result = input("value", 1);
     } else if (kind == "scale") {
@@ -281,25 +287,22 @@ PatternPointer Textures::make(const std::string& kind, bool isNumber, const Para
             result.texture = image.texture;
             result.color = image.color * factor.color;
         }
-        hasMapping = false;
     } else if (kind == "mix") {
         const Pattern amount = pattern(p, "amount", ColorOf::Number, glm::dvec3(0.5), table, true);
         result = combined(
             p, input("tex1", 0), input("tex2", 1), amount,
             [](const auto& a, const auto& b, const auto& share) { return glm::mix(a, b, share); });
-        hasMapping = false;
     } else if (kind == "directionmix") {
         p.skip({"dir"});
         p.replace(build::Shortfall::Model, "is a mixture by the direction", "one in equal parts");
         result = combined(p, input("tex1", 0), input("tex2", 1), Pattern(),
                           [](const auto& a, const auto& b, const auto&) { return (a + b) / 2.0; });
-        hasMapping = false;
     } else if (kind == "imagemap") {
         result = imageMap(p, isNumber);
     } else if (kind == "checkerboard") {
-        result = checkerboard(p, table, isNumber);
+        result = checkerboard(p, table, isNumber, mapping);
     } else if (kind == "dots") {
-        result = dots(p, table, isNumber);
+        result = dots(p, table, isNumber, mapping);
     } else if (kind == "bilerp") {
         result = bilinear(p, isNumber);
     } else if (kind == "uv") {
@@ -321,12 +324,9 @@ PatternPointer Textures::make(const std::string& kind, bool isNumber, const Para
                                    "fbm, windy, wrinkled, marble or ptex",
                                    kind));
     }
-    if (hasMapping) {
-        Mapping mapping;
-        readMapping(p, worldFromTexture, mapping);
-        const bool hasOwn = result.mapping == Mapping();
-        if (!result.isConstant && hasOwn) result.mapping = mapping;
-    }
+    // What lies in squares or disks has a mapping of its own.
+    const bool isWhole = kind != "checkerboard" && kind != "dots";
+    if (isWhole && !result.isConstant && result.mapping == Mapping()) result.mapping = mapping;
     p.reportUnread();
     result.number = ++made_;
     return std::make_shared<const Pattern>(std::move(result));

@@ -50,8 +50,10 @@ class Textures {
 
   private:
     Pattern imageMap(const Parameters& parameters, bool isNumber);
-    Pattern checkerboard(const Parameters& parameters, const TextureTable& table, bool isNumber);
-    Pattern dots(const Parameters& parameters, const TextureTable& table, bool isNumber);
+    Pattern checkerboard(const Parameters& parameters, const TextureTable& table, bool isNumber,
+                         const Mapping& mapping);
+    Pattern dots(const Parameters& parameters, const TextureTable& table, bool isNumber,
+                 const Mapping& mapping);
     Pattern bilinear(const Parameters& parameters, bool isNumber);
     Pattern combined(const Parameters& parameters, const Pattern& a, const Pattern& b,
                      const Pattern& c, const Combine& how);

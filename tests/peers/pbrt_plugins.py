@@ -163,8 +163,8 @@ def textures():
     nearest = texture("imagemap", tiles + ' "string filter" "point"') + shown
     yield "imagemap_point", nearest, two(bsdf("diffuse", file_of("tiles.exr", word("filter_type", "nearest")))), ""
     board = texture("checkerboard", '"rgb tex1" [ 0.8 0.1 0.1 ] "rgb tex2" [ 0.1 0.1 0.7 ] "float uscale" 8 "float vscale" 4') + shown
-    colors = rgb("color0", "0.8,0.1,0.1") + rgb("color1", "0.1,0.1,0.7")
-    to_cells = to_uv('<scale x="4" y="2"/>')
+    colors = rgb("color1", "0.8,0.1,0.1") + rgb("color0", "0.1,0.1,0.7")  # v is upside down, of four rows
+    to_cells = '<transform name="to_uv"><scale x="4" y="2"/></transform>'
     yield "checkerboard", board, two(bsdf("diffuse", f'<texture type="checkerboard" name="reflectance">{colors}{to_cells}</texture>')), ""
     scaled = 'Texture "a" "spectrum" "imagemap" ' + tiles + "\n" + texture("scale", '"texture tex" "a" "float scale" 0.5') + shown
     yield "scale", scaled, two(bsdf("diffuse", file_of("halved.exr"))), ""
@@ -173,6 +173,15 @@ def textures():
     mixed = 'Texture "m" "float" "bilerp" "float v00" 0 "float v01" 0 "float v10" 1 "float v11" 1\n'
     mixed += texture("mix", '"rgb tex1" [ 0 0.8 0 ] "rgb tex2" [ 0.8 0 0 ] "texture amount" "m"') + shown
     yield "mix_texture", mixed, two(bsdf("diffuse", file_of("mixed.exr"))), ""
+    pictures = 'Texture "a" "spectrum" "imagemap" "float uscale" 2 ' + tiles + "\n"
+    pictures += 'Texture "b" "spectrum" "imagemap" "string filename" "ramp.exr" "float uscale" 3 "float vdelta" 0.2\n'
+    pictures += 'Texture "n" "float" "imagemap" "string filename" "soft.exr" "float scale" 3\n'
+    for name, stated in (
+        ("scale_pictures", texture("scale", '"texture tex" "a" "texture scale" "n"')),
+        ("mix_pictures", texture("mix", '"texture tex1" "a" "texture tex2" "b" "texture amount" "n"')),
+        ("checkerboard_pictures", texture("checkerboard", '"texture tex1" "a" "texture tex2" "b" "float uscale" 4 "float vscale" 3')),
+    ):
+        yield name, pictures + stated + shown, two(bsdf("diffuse", file_of(name + ".exr"))), ""
     plane = "AttributeBegin\nTranslate 0.3 0.4 0\nRotate 20 0 0 1\nScale 2 1 1\n"
     plane += texture("imagemap", tiles + ' "string mapping" "planar" "vector3 v1" [ 1 0 0 ] "vector3 v2" [ 0 0.5 0 ]') + "AttributeEnd\n" + shown
     uv = '<translate x="-0.5" y="-0.5"/><scale x="2.4" y="2"/><translate y="1.2"/>'  # of the wall's places
@@ -349,6 +358,30 @@ def everything():
     yield "instance", scene4(copied), scene3(stretched)
 
 
+def looked_up(picture, s, t):
+    """A bilinear lookup of a picture that is repeated, t upwards."""
+    rows, columns = picture.shape[:2]
+    x, y = s * columns - 0.5, (1 - t) * rows - 0.5
+    i, j = np.floor(x).astype(int), np.floor(y).astype(int)
+    a, b = (x - i)[..., None], (y - j)[..., None]
+
+    def texel(column, row):
+        return picture[row % rows, column % columns]
+
+    return (1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) + b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1))
+
+
+def write_mixtures():
+    """What textures of textures are, as pictures."""
+    x = (np.arange(1024) + 0.5) / 1024
+    u, v = np.meshgrid(x, x[::-1])
+    tiles, ramp, soft = (np.array(mi.Bitmap(name + ".exr")) for name in ("tiles", "ramp", "soft"))
+    one, two_, share = looked_up(tiles, 2 * u, v), looked_up(ramp, 3 * u, v + 0.2), 3 * looked_up(soft, u, v)
+    odd = ((np.floor(4 * u) + np.floor(3 * v)) % 2)[..., None]
+    for name, value in (("scale", one * share), ("mix", one + share * (two_ - one)), ("checkerboard", np.where(odd, two_, one))):
+        mi.Bitmap(value.astype(np.float32)).write(name + "_pictures.exr")
+
+
 def equal_area(x, y):
     """The direction of a place in pbrt-v4's square maps (Clarberg 2008), z up."""
     p, q = 2 * x - 1, 2 * y - 1
@@ -388,6 +421,7 @@ def write_files():
     soft = (0.01 + 0.3 * u * v)[..., None].repeat(3, axis=-1)
     mi.Bitmap(soft).write("soft.exr")
     mi.Bitmap(np.sqrt(soft)).write("roots.exr")
+    write_mixtures()
     s = (np.arange(256) + 0.5) / 256
     p, q = np.meshgrid(s, s)
     mi.Bitmap(sky_of(*equal_area(p, q))).write("square.exr")

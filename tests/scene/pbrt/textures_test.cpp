@@ -98,6 +98,21 @@ TEST(PbrtTextures, Checkerboards) {
     expectColor(shown.at(0.6, 0.9), {0, 1, 0});
 }
 
+/// What lies in the squares has its own coordinates.
+TEST(PbrtTextures, CheckerboardsOfPictures) {
+    const std::string squares =
+        "Texture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" 3 \"float vscale\" 3 "
+        "\"texture tex1\" \"t\" \"rgb tex2\" [.5 .5 .5] ";
+    const Shown shown(imageMap() + " " + squares);
+    expectColor(shown.at(0.25, 0.25), {0, 0, 1}, 0.02);
+    expectColor(shown.at(0.5, 0.1), {0.5, 0.5, 0.5});
+    expectColor(shown.at(0.75, 0.25), {1, 1, 1}, 0.02);
+    expectColor(shown.at(0.75, 0.75), {0, 1, 0}, 0.02);
+    // They go on beyond 1, where the picture begins again and the squares do not.
+    expectColor(shown.at(1.25, 0.25), {0.5, 0.5, 0.5});
+    expectColor(shown.at(2.25, 0.25), {0, 0, 1}, 0.02);
+}
+
 TEST(PbrtTextures, OtherPatternsBecomePictures) {
     expectColor(Shown("Texture \"t\" \"spectrum\" \"uv\"").at(0.3, 0.6), {0.3, 0.6, 0}, 4e-3);
     const Shown corners("Texture \"t\" \"spectrum\" \"bilerp\" \"rgb v00\" [0 0 0] \"rgb v10\" [1 "
