@@ -196,6 +196,20 @@ def textures():
     bumps = texture("imagemap", '"string filename" "waves.exr" "float scale" 0.1', "float") + 'Material "diffuse" "texture displacement" "t"'
     heights = file_of("waves.exr").replace("reflectance", "height") + num("scale", 0.1) + PLAIN + bsdf("diffuse")
     yield "displacement", bumps, two(bsdf("bumpmap", heights)), ""
+    scaled = 'Texture "h" "float" "imagemap" "string filename" "waves.exr"\n' + texture("scale", '"texture tex" "h" "float scale" 0.1', "float")
+    yield "displacement_scaled", scaled + 'Material "diffuse" "texture displacement" "t"', two(bsdf("bumpmap", heights)), ""
+    named = 'MakeNamedMaterial "red" "string type" "diffuse" "rgb reflectance" [ 0.8 0.1 0.1 ]\n'
+    named += 'MakeNamedMaterial "metal" "string type" "conductor" "float roughness" 0.04\n'
+    named += texture("imagemap", '"string filename" "grey.exr"', "float") + 'Material "mix" "string materials" [ "red" "metal" ] "texture amount" "t"'
+    red = bsdf("diffuse", rgb("reflectance", "0.8,0.1,0.1"))
+    weights = file_of("grey.exr").replace("reflectance", "weight")
+    yield "mix_amount", named, two(bsdf("blendbsdf", weights + red + rough("roughconductor", 0.2, word("material", "Cu")))), ""
+    coated = texture("imagemap", tiles) + 'Material "coateddiffuse" "texture reflectance" "t" "float thickness" 0 "integer maxdepth" 1000 "float roughness" 0.09'
+    plastic = file_of("tiles.exr").replace("reflectance", "diffuse_reflectance") + '<boolean name="nonlinear" value="true"/>'
+    yield "coateddiffuse_picture", coated, two(rough("roughplastic", 0.3, plastic + num("int_ior", 1.5) + num("ext_ior", 1))), ""
+    frosted = texture("imagemap", '"string filename" "soft.exr"', "float") + 'Material "dielectric" "texture roughness" "t"'
+    alphas = file_of("roots.exr").replace("reflectance", "alpha") + word("distribution", "ggx") + num("int_ior", 1.5) + num("ext_ior", 1)
+    yield "dielectric_picture", frosted, bsdf("roughdielectric", alphas), ""
     roughness = texture("imagemap", '"string filename" "soft.exr"', "float") + 'Material "conductor" "texture roughness" "t"'
     alphas = file_of("roots.exr").replace("reflectance", "alpha") + word("material", "Cu") + word("distribution", "ggx")
     yield "roughness_picture", roughness, two(bsdf("roughconductor", alphas)), ""
