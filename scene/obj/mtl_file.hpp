@@ -42,7 +42,7 @@ struct MtlMaterial {
     std::optional<Map> diffuseMap, specularMap, emissionMap, opacityMap; ///< map_Kd, Ks, Ke, d
     std::optional<Map> roughnessMap, metallicMap, normalMap;             ///< map_Pr, map_Pm, norm
     std::optional<Map> bumpMap;                                          ///< map_bump
-    /// Of files of Blender: Ka, map_Ns and map_refl.
+    /// Read in files of Blender alone: Ka, map_Ns and map_refl.
     std::optional<glm::dvec3> ambient;
     std::optional<Map> exponentMap, reflectionMap;
     /// Factors of what a dielectric of its index reflects, in place of Ks.

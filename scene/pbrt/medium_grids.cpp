@@ -33,7 +33,7 @@ Grid<Value> emptyGrid(const Parameters& p, const glm::dmat4& worldFromMedium,
     return grid;
 }
 
-/// Of as many cells as the file states.
+/// It has as many cells as the file states.
 template <class Value>
 Grid<Value> emptyGrid(const Parameters& p, const glm::dmat4& worldFromMedium) {
     glm::uvec3 cells(1);
