@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace stromboli::gltf {
 namespace {
@@ -122,6 +123,35 @@ void animate(Context& context, const Element& animation, const Element& channel,
     }
 }
 
+/// The nodes that an animation moves. What is wrong with it is said by whoever shows it.
+std::set<size_t> nodesOf(const Document& document, const Element& animation) {
+    std::set<size_t> nodes;
+    for (const Element& channel : animation.items("channels"))
+        try {
+            const auto target = channel.strictly().child("target");
+            const auto node = target ? target->index("node", document.size("nodes")) : std::nullopt;
+            if (node) nodes.insert(*node);
+        } catch (const SceneError&) {
+        }
+    return nodes;
+}
+
+/// The first animation, and those of other nodes than the ones before: programs write one for each
+/// object that moves, and others for what one object may do.
+std::vector<Element> shownTogether(const Document& document) {
+    std::vector<Element> shown;
+    std::set<size_t> moved;
+    for (const Element& animation : document.root().items("animations")) {
+        const std::set<size_t> nodes = nodesOf(document, animation);
+        const bool isOther =
+            std::ranges::none_of(nodes, [&](size_t n) { return moved.contains(n); });
+        if (!shown.empty() && (nodes.empty() || !isOther)) continue;
+        shown.push_back(animation);
+        moved.insert(nodes.begin(), nodes.end());
+    }
+    return shown;
+}
+
 } // namespace
 
 std::map<size_t, AnimatedNode> animatedNodes(Context& context) {
@@ -137,29 +167,31 @@ std::map<size_t, AnimatedNode> animatedNodes(Context& context) {
         context.document.root().fail(
             fmt::format("has no animation; {} asks for one",
                         context.selection().isFrame ? "--frames" : "--at"));
-    context.report().ignore("animations", "the first one is shown", animations.size() - 1);
-    for (const Element& channel : animations.front().items("channels"))
-        try {
-            animate(context, animations.front(), channel.strictly(), *seconds, nodes);
-        } catch (const SceneError& error) {
-            context.report().replace(error, build::Shortfall::Parameter);
-        }
+    const std::vector<Element> shown = shownTogether(context.document);
+    context.report().ignore("animations", "the first one of each node is shown",
+                            animations.size() - shown.size());
+    for (const Element& animation : shown)
+        for (const Element& channel : animation.items("channels"))
+            try {
+                animate(context, animation, channel.strictly(), *seconds, nodes);
+            } catch (const SceneError& error) {
+                context.report().replace(error, build::Shortfall::Parameter);
+            }
     return nodes;
 }
 
 double animationEnd(const Document& document) {
-    const std::vector<Element> animations = document.root().items("animations");
-    if (animations.empty()) return 0;
     double end = 0;
-    for (const Element& sampler : animations.front().items("samplers"))
-        try {
-            const auto input = sampler.index("input", document.size("accessors"));
-            if (!input) continue;
-            const Values times = readValues(document, *input, 1);
-            if (times.count > 0 && std::isfinite(times.numbers.back()))
-                end = std::max(end, times.numbers.back());
-        } catch (const SceneError&) { // whoever shows the animation says what is wrong
-        }
+    for (const Element& animation : shownTogether(document))
+        for (const Element& sampler : animation.items("samplers"))
+            try {
+                const auto input = sampler.index("input", document.size("accessors"));
+                if (!input) continue;
+                const Values times = readValues(document, *input, 1);
+                if (times.count > 0 && std::isfinite(times.numbers.back()))
+                    end = std::max(end, times.numbers.back());
+            } catch (const SceneError&) { // whoever shows the animation says what is wrong
+            }
     return end;
 }
 

@@ -20,10 +20,11 @@ struct AnimatedNode {
     bool isPosed() const { return translation || rotation || scale; }
 };
 
-/// The file's first animation at the time that `--at` asks for; empty without it.
+/// The file's first animation, and those of nodes that none before moves, at the time that `--at`
+/// asks for; empty without it.
 std::map<size_t, AnimatedNode> animatedNodes(Context& context);
 
-/// The last key frame of the file's first animation, in seconds; 0: there is none that can be read.
+/// The last key frame of these animations, in seconds; 0: there is none that can be read.
 double animationEnd(const Document& document);
 
 } // namespace stromboli::gltf

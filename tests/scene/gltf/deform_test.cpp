@@ -238,6 +238,25 @@ TEST(GltfAnimations, MarkLightsThatTheyMove) {
     EXPECT_FALSE(load(g).lightsMove);
 }
 
+/// Programs write one for each object that moves; two of one object are two things that it may do.
+TEST(GltfAnimations, OfOtherNodesArePlayedTogether) {
+    GltfText g = animated("translation", "VEC3", {0, 0, 0, 0, 8, 0});
+    g.addTo("nodes", R"("mesh": 0)");
+    g.arrays["scenes"][0] = R"({"nodes": [0, 1]})";
+    const size_t times = g.addAccessor<float>({1, 5}, "SCALAR");
+    const size_t output = g.addAccessor<float>({0, 0, 0, 0, 0, 16}, "VEC3");
+    for (const int node : {1, 0})
+        g.addTo("animations", fmt::format(R"("samplers": [{{"input": {}, "output": {}}}],
+            "channels": [{{"sampler": 0, "target": {{"node": {}, "path": "translation"}}}}])",
+                                          times, output, node));
+    const Scene scene = load(g, at(2));
+    EXPECT_EQ(corner(scene), glm::vec3(1, 4, 0));
+    EXPECT_EQ(scene.positions.at(scene.triangles.at(1).corner[1]), glm::vec3(1, 0, 4));
+    EXPECT_EQ(scene.animationSeconds, 5);
+    EXPECT_THAT(scene.report.ignored,
+                Contains(HasSubstr("1 animations: the first one of each node")));
+}
+
 TEST(GltfAnimations, WrongOnes) {
     const auto said = [](const GltfText& g) {
         const Scene scene = load(g, at(1));
