@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace stromboli::obj {
 
 Materials::Materials(const std::filesystem::path& file, build::SceneBuilder& builder)
-    : folder_(file.parent_path()), builder_(builder), pictures_(folder_, builder) {}
+    : folder_(file.parent_path()), ownLibrary_(file.stem().string() + ".mtl"), builder_(builder),
+      pictures_(folder_, builder) {}
 
 /// The specification separates names by spaces; programs write one name, with spaces in it.
 void Materials::addLibraries(const Statements& statement) {
@@ -43,6 +45,15 @@ bool Materials::addLibrary(std::string_view name, const build::FilePlace& where)
     return true;
 }
 
+/// Files get other names, and the one that an OBJ file names is not there then.
+void Materials::addOwnLibrary(const build::FilePlace& where) {
+    const std::string name = std::exchange(ownLibrary_, "");
+    const size_t before = libraries_.size();
+    if (name.empty() || !addLibrary(name, where) || libraries_.size() == before) return;
+    builder_.report().forgive(where, "no library that is named has this material",
+                              fmt::format("'{}' beside the file is read", shortened(name)));
+}
+
 uint32_t Materials::nameNumber(const Statements& statement) {
     const auto [found, isNew] =
         useNumbers_.try_emplace(std::string(statement.rest()), uint32_t(uses_.size()));
@@ -51,6 +62,7 @@ uint32_t Materials::nameNumber(const Statements& statement) {
 }
 
 const BoundMaterial& Materials::of(std::optional<uint32_t> name) {
+    if (name && !stated_.contains(uses_[*name].name)) addOwnLibrary(uses_[*name].place);
     if (name && !stated_.contains(uses_[*name].name)) {
         const Use& use = uses_[*name];
         builder_.report().forgive(use.place,

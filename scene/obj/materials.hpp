@@ -34,9 +34,11 @@ class Materials {
 
   private:
     bool addLibrary(std::string_view name, const build::FilePlace& where);
+    void addOwnLibrary(const build::FilePlace& where);
     BoundMaterial make(const MtlMaterial& stated);
 
     std::filesystem::path folder_;
+    std::string ownLibrary_; ///< named as the file is; empty: it has been looked for
     build::SceneBuilder& builder_;
     Pictures pictures_;
     std::unordered_map<std::string, MtlMaterial> stated_;

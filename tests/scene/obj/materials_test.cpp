@@ -249,6 +249,21 @@ TEST_F(ObjMaterials, OfBlenderMeanItsSurfaces) {
     EXPECT_EQ(useOf(m, TextureSlot::Normal)->scale, 2);
 }
 
+/// A library that lies beside the file under its name stands for one that is not there, or not
+/// named.
+TEST_F(ObjMaterials, OfALibraryOfTheSameNameAreFound) {
+    folder_.write("a.mtl", "newmtl red\nKd 1 0 0\n");
+    const std::string face = "v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n";
+    for (const char* library : {"mtllib none.mtl\n", ""}) {
+        const Scene scene = folder_.load(library + face);
+        EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(1, 0, 0));
+        EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("'a.mtl' beside the file is read")));
+    }
+    // Where the named one has it, nobody looks for another.
+    folder_.write("m.mtl", "newmtl red\nKd 0 1 0\n");
+    EXPECT_EQ(folder_.load("mtllib m.mtl\n" + face).materials.at(0).albedo, glm::vec3(0, 1, 0));
+}
+
 /// A material that is not seen is one that nobody states.
 TEST_F(ObjMaterials, TransparencyOfOneAloneIsAnOpacity) {
     EXPECT_EQ(material("Kd 1 1 1\nTr 1\n").alphaMode, AlphaMode::Opaque);
