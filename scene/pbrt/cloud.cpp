@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace stromboli::pbrt {
 namespace {
@@ -35,6 +36,9 @@ struct Cloud {
         if (density <= 0) return 0;
         constexpr double kFiner = 1.99; // than the octave before
         glm::dvec3 p = frequency * place;
+        constexpr double kMost = 1e9; // farther off, numbers have no digits for cells of noise
+        for (const int axis : {0, 1, 2})
+            if (!(std::abs(p[axis]) < kMost)) return 0;
         double shift = 0.05 * wispiness, scale = 10;
         for (int i = 0; wispiness > 0 && i < 2; ++i, shift /= 2, scale *= kFiner)
             p += shift * slopeOfNoise(scale * p);
@@ -57,7 +61,9 @@ DensityGrid cloudOf(const Parameters& p, const glm::dmat4& worldFromMedium) {
     const glm::dvec3 size = p.vector("p1").value_or(glm::dvec3(1)) - low;
     constexpr double kMostCells = 96; // of a side
     const glm::dvec3 sides = glm::abs(size);
-    const double longest = std::max({sides.x, sides.y, sides.z, 1e-300});
+    for (const int axis : {0, 1, 2})
+        if (!(sides[axis] > 0 && sides[axis] < 1e30)) p.place().fail("has a box without a volume");
+    const double longest = std::max({sides.x, sides.y, sides.z});
     const glm::dvec3 cells = glm::clamp(glm::round(kMostCells * sides / longest), 1.0, kMostCells);
     DensityGrid grid = emptyDensity(p, worldFromMedium, glm::uvec3(cells));
     const glm::uvec3 count = grid.size;

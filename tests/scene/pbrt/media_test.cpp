@@ -3,6 +3,8 @@
 #include "scene/pbrt/medium_grids.hpp"
 #include "tests/scene/pbrt/pbrt_text.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -226,6 +228,13 @@ TEST(PbrtMedia, AreClouds) {
 
 TEST(PbrtMedia, ThatCannotBeReadAreSaid) {
     EXPECT_THAT(problemInV4(fog("\"string type\" \"plasma\"")), HasSubstr("is 'plasma'"));
+    for (const char* corner : {"0 1 1", "nan 1 1", "1 inf 1"})
+        EXPECT_THAT(
+            problemInV4(fog(fmt::format("\"string type\" \"cloud\" \"point3 p1\" [{}]", corner))),
+            HasSubstr("has a box without a volume"));
+    EXPECT_EQ(problemInV4(fog(
+                  "\"string type\" \"cloud\" \"point3 p0\" [1e20 0 0] \"float frequency\" 1e6")),
+              "");
     EXPECT_THAT(problemInV4(kInFog), HasSubstr("names the medium 'fog', which is not there"));
     EXPECT_THAT(problemInV4(fog("\"string type\" \"uniformgrid\" \"integer nx\" 2 "
                                 "\"float density\" [1]")),
