@@ -3,10 +3,12 @@
 #include "scene/assimp/assimp_api.hpp"
 #include "scene/obj/material_rules.hpp"
 
+#include <assimp/commonMetaData.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 namespace stromboli::assimp {
 namespace {
@@ -45,6 +47,12 @@ bool clamps(const aiMaterial& m, aiTextureType type) {
     return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal;
 }
 
+bool isOfBlender(const aiScene& scene) {
+    aiString program;
+    return scene.mMetaData && scene.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, program) &&
+           std::string_view(program.C_Str()).starts_with("Blender");
+}
+
 } // namespace
 
 Materials::Materials(const std::filesystem::path& file, const aiScene& scene,
@@ -55,6 +63,7 @@ Materials::Materials(const std::filesystem::path& file, const aiScene& scene,
     std::ranges::transform(suffix, suffix.begin(),
                            [](unsigned char c) { return char(std::tolower(c)); });
     isWithoutMaterials_ = suffix == ".stl";
+    reflectsAsMetal_ = suffix == ".fbx" && isOfBlender(scene);
     for (unsigned i = 0; i < scene.mNumMeshes; ++i)
         hasColors_ = hasColors_ || scene.mMeshes[i]->HasVertexColors(0);
 }
@@ -136,6 +145,7 @@ obj::MtlMaterial Materials::stated(const aiMaterial& m) {
     s.dissolve = number(m, AI_MATKEY_OPACITY);
     s.roughness = number(m, AI_MATKEY_ROUGHNESS_FACTOR);
     s.metallic = number(m, AI_MATKEY_METALLIC_FACTOR);
+    if (!s.metallic && reflectsAsMetal_) s.metallic = number(m, AI_MATKEY_REFLECTIVITY);
     s.diffuseMap = map(m, aiTextureType_BASE_COLOR);
     if (!s.diffuseMap) s.diffuseMap = map(m, aiTextureType_DIFFUSE);
     s.emissionMap = map(m, aiTextureType_EMISSIVE);

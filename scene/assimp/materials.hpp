@@ -39,6 +39,7 @@ class Materials {
     obj::Pictures pictures_;
     std::map<unsigned, Made> made_;
     bool isWithoutMaterials_ = false; ///< the format (STL) has none
+    bool reflectsAsMetal_ = false;    ///< what it reflects is the share of metal (Blender's FBX)
     bool hasColors_ = false;          ///< some corners
 };
 

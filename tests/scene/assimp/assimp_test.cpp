@@ -183,6 +183,55 @@ TEST_F(AssimpFiles, FbxHasItsAnglesAndDecays) {
     EXPECT_EQ(unfading.lights.at(0).quadraticAttenuation, 0);
 }
 
+/// Blender writes the metallic share of its surfaces as what they reflect.
+TEST_F(AssimpFiles, FbxOfBlenderHasItsMetals) {
+    const auto withGold = [](const std::string& creator) {
+        std::string text = kFbx;
+        const auto insert = [&](const std::string& behind, const std::string& what) {
+            text.insert(text.find(behind) + behind.size(), what);
+        };
+        insert("FBXVersion: 7400\n", " Creator: \"" + creator + "\"\n");
+        insert("Objects:  {\n", R"( Material: 7, "Material::gold", "" {
+  Version: 102
+  ShadingModel: "Phong"
+  Properties70:  {
+   P: "DiffuseColor", "Color", "", "A",1,0.7,0.3
+   P: "ReflectionFactor", "Number", "", "A",0.75
+   P: "Shininess", "Number", "", "A",64
+   P: "ShininessExponent", "Number", "", "A",64
+  }
+ }
+)");
+        insert("GeometryVersion: 124\n", R"(  LayerElementMaterial: 0 {
+   Version: 101
+   Name: ""
+   MappingInformationType: "AllSame"
+   ReferenceInformationType: "IndexToDirect"
+   Materials: *1 {
+    a: 0
+   }
+  }
+  Layer: 0 {
+   Version: 100
+   LayerElement:  {
+    Type: "LayerElementMaterial"
+    TypedIndex: 0
+   }
+  }
+)");
+        insert("C: \"OO\",1,2\n", " C: \"OO\",7,2\n");
+        return text;
+    };
+    const std::optional<Scene> scene =
+        read(write("a.fbx", withGold("Blender (stable FBX IO) - 4.5.15 LTS - 5.13.1")));
+    if (!scene) GTEST_SKIP() << "Assimp is not installed";
+    const PrincipledParameters& p = scene->materials.at(scene->triangles.at(0).material).principled;
+    EXPECT_FLOAT_EQ(p.metallic, 0.75f);
+    EXPECT_NEAR(p.roughness, 0.2, 1e-5);
+    const Scene other = *read(write("b.fbx", withGold("FBX SDK/FBX Plugins version 2018")));
+    EXPECT_EQ(other.materials.at(other.triangles.at(0).material).principled.metallic, 0);
+}
+
 TEST_F(AssimpFiles, StlInCapitalsHasItsTrianglesToo) {
     std::string text = kStl;
     std::ranges::transform(text, text.begin(),
