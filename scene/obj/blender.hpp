@@ -10,6 +10,8 @@ namespace stromboli::obj {
 /// The program that wrote an MTL file. Its materials are no Blinn-Phong ones: it writes what its
 /// Principled BSDF has in words that mean something else.
 struct Blender {
+    static constexpr double kWholeCoat = 4; ///< Pc of a coat that covers all
+
     double largestExponent = 0; ///< what Ns is of a smooth surface
     bool hasLevels = false;     ///< Ks multiplies what Ni reflects, and not what 1.5 does
 };

@@ -189,6 +189,7 @@ class MtlReader {
             report_.ignore("'d -halo'", "opacity does not depend on the angle");
         }
         double value = number(words);
+        if (blender_ && keyword.name == "pc") value /= Blender::kWholeCoat;
         if (keyword.isFraction && (value < 0 || value > 1)) {
             report_.warn(
                 fmt::format("'{}' of a material: a fraction outside [0, 1] is clamped to it",

@@ -236,6 +236,8 @@ TEST_F(ObjMaterials, OfBlenderMeanItsSurfaces) {
     EXPECT_EQ(glass.transmission, 1);
     EXPECT_FALSE(glass.isThin);
     EXPECT_FLOAT_EQ(glass.ior, 1.45f);
+    EXPECT_EQ(made(head, "Ks 0.5 0.5 0.5\nPr 0.5\nPc 2\n").materials.at(0).principled.clearcoat,
+              0.5f);
     // Others mean what they say.
     EXPECT_NE(made("# by hand\n", gold).materials.at(0).principled.metallic, 0.75f);
     const Scene pictures = made(
