@@ -171,8 +171,9 @@ void Shapes::addForm(Form form, const std::string& kind, const Parameters& shape
         emission = lights_.emission(state.light->kind, state.light->parameters,
                                     lightArea(form, state, kind));
     if (emission && alpha && alpha->isConstant && !(alpha->color.x > 0) && !context_.isV3()) {
-        // It gives all its light, and hides little of what is behind it.
-        constexpr double kShare = 1.0 / 16;
+        // It gives all its light. The less it hides of what is behind it, the more noise its
+        // reflections have.
+        constexpr double kShare = 1.0 / 4;
         shape.replace(build::Shortfall::Model, "is an area light that is not seen: 'alpha' is 0",
                       "a light that is seen, and seen through");
         alpha = Pattern::constant(glm::dvec3(kShare));

@@ -151,7 +151,7 @@ TEST(PbrtAreaLights, ThatAreNotSeenGiveTheirLight) {
     const Scene scene = loadV4(light + shape);
     const Material& m = scene.materials.at(scene.triangles.at(0).material);
     EXPECT_EQ(m.alphaMode, AlphaMode::Blend);
-    EXPECT_LE(m.opacity, 0.1f);
+    EXPECT_LE(m.opacity, 0.25f);
     expectNear(double(m.opacity) * glm::dvec3(m.emission), {1, 2, 3});
     EXPECT_THAT(problemInV4(light + shape), HasSubstr("is an area light that is not seen"));
 }
