@@ -43,20 +43,29 @@ double noiseLeftAround(const std::vector<ReferenceResult>& filtered, uint32_t wi
 /// Standard errors that a pixel may change by.
 constexpr double kMostErrors = 4;
 
-/// The mean squared deviation of the pixels around one, by channel.
-glm::dvec3 varianceAround(const Prepared& prepared, uint32_t width, uint32_t height, size_t pixel) {
+/// What samples that have all met no light may have missed, squared, by channel. The pixels around
+/// say how much light one sample brings: where it is met with a probability of p and then seen as
+/// L, the mean is p L and the variance of the mean of n samples p L^2 / n, so that their quotient
+/// is L / n, the standard error of a pixel that one sample has met. It is at most the standard
+/// error of those around: where p is small none of them may have met any.
+glm::dvec3 varianceOfNothing(const Prepared& prepared, uint32_t width, uint32_t height,
+                             size_t pixel) {
     constexpr int kReach = 2;
     const int x = int(pixel % width), y = int(pixel / width);
-    glm::dvec3 sum(0.0);
+    glm::dvec3 squares(0.0), means(0.0);
     double weights = 0;
     for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, int(height) - 1); ++v)
         for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, int(width) - 1); ++u) {
             const gpu::DenoisePixel& q = prepared.pixels[size_t(v) * width + size_t(u)];
             const glm::dvec3 deviation(q.deviation);
-            sum += double(q.weight) * deviation * deviation;
+            squares += double(q.weight) * deviation * deviation;
+            means += double(q.weight) * glm::dvec3(q.mean);
             weights += double(q.weight);
         }
-    return weights > 0 ? sum / weights : sum;
+    if (weights == 0) return squares;
+    constexpr double kNotZero = std::numeric_limits<double>::min();
+    const glm::dvec3 ofOneSample = squares / glm::max(means, kNotZero);
+    return glm::min(squares / weights, ofOneSample * ofOneSample);
 }
 
 /// How much of its change a pixel makes: no more than its own samples can be wrong by, where their
@@ -70,12 +79,9 @@ double shareOfChange(const NoisyPicture& picture, const Prepared& prepared, size
     const glm::dvec3 perScale = albedo / double(prepared.scale);
     glm::dvec3 variance = glm::max(deviation * deviation,
                                    glm::dvec3(picture.variance[pixel]) / (perScale * perScale));
-    // Samples that have all met no light have no variance, and are not known for it: light that a
-    // sample meets with a probability of p and then sees as L has the mean p L and the variance
-    // p L^2, and n samples all miss it with exp(-n p), where n p is the mean squared over the
-    // variance of the mean. So the noise of the neighbours says how bright the pixel may be.
+    // Samples that have all met no light have no variance, and are not known for it.
     if (sumOf(variance) == 0 && sumOf(glm::dvec3(p.mean)) == 0)
-        variance = varianceAround(prepared, picture.width, picture.height, pixel);
+        variance = varianceOfNothing(prepared, picture.width, picture.height, pixel);
     const double allowed = kMostErrors * sumOf(glm::sqrt(variance) * albedo);
     const double wanted = sumOf(glm::abs(change) * albedo);
     return wanted > allowed ? allowed / wanted : 1;

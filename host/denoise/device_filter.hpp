@@ -16,7 +16,7 @@ namespace stromboli::denoise {
 /// How the work is cut. None of it changes a byte of the result.
 struct FilterTuning {
     std::optional<bool> texelFetch;   ///< empty: where storage texel buffers are the faster ones
-    uint32_t pixelsAtOnce = 1u << 20; ///< that buffers hold, 370 bytes for each
+    uint32_t pixelsAtOnce = 1u << 20; ///< that buffers hold, 390 bytes for each
 };
 
 /// The filter on a device: the five shaders of shaders/denoise, one after the other, for strips of

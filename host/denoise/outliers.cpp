@@ -13,13 +13,15 @@ constexpr int kNear = 3;
 /// Standard errors above what the neighbours have that a pixel may be. Of normal errors one pixel
 /// in 700 is that far off by chance, and nearly all of these have light in both halves.
 constexpr double kAllowed = 3;
-/// So many neighbours have to count fully for their mean to say anything.
-constexpr double kLeastNeighbours = 8;
+/// So many neighbours have to count fully for their mean to say anything: where fewer are of the
+/// same surface, as at edges, the others count for the rest.
+constexpr double kLeastNeighbours = 16;
 
 /// What a pixel gives away.
 struct Gift {
     glm::dvec3 light{0.0}; ///< radiance
     double parts = 0;      ///< of it that its neighbours take, the pixel included
+    double foreign = 0;    ///< what a neighbour of another surface counts for
     float keeps = 1;       ///< what is left of the pixel's radiance
 };
 
@@ -78,23 +80,41 @@ class Limiter {
         return q.weight * std::exp(-0.5 * glm::dot(unlike, glm::dvec3(gpu::DENOISE_PILOT_SCALE)));
     }
 
+    /// ... where those of other surfaces count for something.
+    double weightOf(int x, int y, int u, int v, double foreign) const {
+        return glm::mix(weightOf(x, y, u, v), double(picture_.pixels[at(u, v)].weight), foreign);
+    }
+
+    /// What neighbours of other surfaces have to count for, from 0 to 1, so that enough count.
+    double foreignAround(int x, int y) const {
+        double same = 0, all = 0;
+        forEachNear(x, y, [&](int u, int v) {
+            if (u == x && v == y) return;
+            same += weightOf(x, y, u, v);
+            all += picture_.pixels[at(u, v)].weight;
+        });
+        if (same >= kLeastNeighbours || all <= same) return 0;
+        return std::min((kLeastNeighbours - same) / (all - same), 1.0);
+    }
+
     Gift giftOf(int x, int y) const {
         const gpu::DenoisePixel& p = picture_.pixels[at(x, y)];
         const double own = sumOf(p.mean), deviation = sumOf(glm::abs(glm::dvec3(p.deviation)));
         Gift gift;
         // Nearly all pixels are told by themselves.
         if (p.weight == 0 || deviation <= 0.5 * own) return gift;
+        gift.foreign = foreignAround(x, y);
         double sum = 0, squares = 0, mean = 0, variance = 0;
         forEachNear(x, y, [&](int u, int v) {
             if (u == x && v == y) return;
             const gpu::DenoisePixel& q = picture_.pixels[at(u, v)];
-            const double weight = weightOf(x, y, u, v);
+            const double weight = weightOf(x, y, u, v, gift.foreign);
             const double error = sumOf(glm::abs(glm::dvec3(q.deviation)));
             sum += weight, squares += weight * weight;
             mean += weight * sumOf(q.mean);
             variance += weight * error * error;
         });
-        if (sum < kLeastNeighbours) return gift;
+        if (sum < kLeastNeighbours * (1 - 1e-6)) return gift; // rounding
         mean /= sum, variance /= sum;
         const double limit =
             std::max(mean, 0.0) + kAllowed * std::sqrt(variance * (1 + squares / (sum * sum)));
@@ -110,7 +130,8 @@ class Limiter {
     double partOf(int x, int y, int u, int v) const {
         const gpu::DenoisePixel& q = picture_.pixels[at(u, v)];
         const double radiance = sumOf(glm::dvec3(q.mean) * glm::dvec3(picture_.albedo[at(u, v)]));
-        return weightOf(x, y, u, v) * gifts_[at(u, v)].keeps * std::max(radiance, 0.0);
+        return weightOf(x, y, u, v, gifts_[at(x, y)].foreign) * gifts_[at(u, v)].keeps *
+               std::max(radiance, 0.0);
     }
 
     /// The parts of all that take.

@@ -79,6 +79,12 @@ Prepared prepare(const NoisyPicture& picture) {
         p.weight = 1;
         p.mean = result.scale * picture.mean[i] / result.albedo[i];
         p.deviation = result.scale * picture.deviation[i] / result.albedo[i];
+        // Where samples do not say how far apart they are, their halves do.
+        const glm::vec3 spread =
+            picture.variance.empty()
+                ? p.deviation
+                : result.scale * glm::sqrt(glm::max(picture.variance[i], 0.0f)) / result.albedo[i];
+        p.variance = glm::dot(spread, spread);
     }
     // relMSE's; where all is black there is nothing to compare with.
     if (result.meanRadiance > 0) result.floor = kRelativeFloor * result.meanRadiance;

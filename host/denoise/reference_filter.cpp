@@ -20,7 +20,7 @@ constexpr size_t kStrict = 0, kRegression = 1, kWide = 2;
 struct Moments {
     std::array<std::array<double, kCandidates>, kCandidates> product{};
     std::array<double, kCandidates> taken{};
-    double error = 0, pixels = 0;
+    double error = 0, pixels = 0, spread = 0;
 
     void operator+=(const Moments& other) {
         for (int a = 0; a < kCandidates; ++a) {
@@ -30,6 +30,18 @@ struct Moments {
         }
         error += other.error;
         pixels += other.pixels;
+        spread += other.spread;
+    }
+    /// If these pixels had so many times the noise, and candidates the errors that they have.
+    Moments withNoise(double times) const {
+        Moments m = *this;
+        for (int a = 0; a < kCandidates; ++a) {
+            for (int b = 0; b < kCandidates; ++b)
+                m.product[a][b] += (times - 1) * (taken[a] + taken[b] - error);
+            m.taken[a] *= times;
+        }
+        m.error *= times;
+        return m;
     }
     /// The two parts of the squared error that is left with these shares.
     glm::dvec2 errorWith(const glm::dvec3& shares) const {
@@ -103,7 +115,9 @@ class HostFilter {
                 sum += weight, squares += weight * weight;
                 pilot.first += weight * (mean + deviation);
                 pilot.second += weight * (mean - deviation);
-                variance += weight * 2 * squareOf(deviation);
+                // A deviation is one number, and may be small by chance; halves know of clumps that
+                // samples hide.
+                variance += weight * 2 * std::max(squareOf(deviation), double(q.variance));
             }
         if (sum == 0) return {};
         return {pilot.first / sum, pilot.second / sum, variance / sum * squares / (sum * sum),
@@ -188,6 +202,7 @@ class HostFilter {
         }
         m.error = glm::dot(counts, deviation * deviation);
         m.pixels = own.weight;
+        m.spread = sumOf(counts) * double(own.variance) / 3;
         return m;
     }
 
@@ -210,17 +225,30 @@ class HostFilter {
                         taken -= m.product[size_t(a)][size_t(b)] * shares[b];
                         room -= shares[b];
                     }
-                const double product =
-                    (1 + double(gpu::DENOISE_RIDGE)) * m.product[size_t(a)][size_t(a)] + 1e-30;
-                shares[a] = std::clamp(taken / product, 0.0, std::max(room, 0.0));
+                // What is left of a product is negative where the candidate follows the noise.
+                const double own = m.product[size_t(a)][size_t(a)];
+                const double best =
+                    own >= 0 ? taken / ((1 + double(gpu::DENOISE_RIDGE)) * own + 1e-30) : 0;
+                shares[a] = std::clamp(best, 0.0, std::max(room, 0.0));
             }
         return shares;
+    }
+
+    /// By what the pixel's noise exceeds, or falls short of, that of its window; samples that have
+    /// met no light say nothing of it.
+    double noisinessOf(size_t pixel, const Moments& window) const {
+        const gpu::DenoisePixel& own = picture_.pixels[pixel];
+        const bool isSilent = own.variance == 0 && own.mean == glm::vec3(0.0f);
+        const double around = window.spread / std::max(window.pixels, 1.0);
+        if (isSilent || around <= 0) return 1;
+        return std::max(std::sqrt(moments_[pixel].spread / around),
+                        double(gpu::DENOISE_LEAST_NOISINESS));
     }
 
     ReferenceResult resultOf(size_t pixel, const Moments& window) const {
         const gpu::DenoisePixel& own = picture_.pixels[pixel];
         ReferenceResult result;
-        result.shares = sharesOf(window);
+        result.shares = sharesOf(window.withNoise(noisinessOf(pixel, window)));
         glm::dvec3 seen = result.shares;
         if (own.weight == 0) seen.z = 1 - seen.x - seen.y;
         result.mean = own.mean;

@@ -36,10 +36,37 @@ DenoiseMoments windowAround(Place place) {
     return momentsOf(s0, s1, s2);
 }
 
+/// By what the pixel's noise exceeds, or falls short of, that of its window: the root of the quotient, as it is one pixel's.
+/// Samples that have met no light say nothing of it.
+float noisinessOf(DenoisePixel own, float variance, DenoiseMoments alone, DenoiseMoments window) {
+    const bool isSilent = variance == 0.0 && own.mean == vec3(0.0);
+    const float around = window.spread / max(window.pixels, 1.0);
+    return isSilent || around <= 0.0 ? 1.0 : max(sqrt(alone.spread / around), DENOISE_LEAST_NOISINESS);
+}
+
+/// The window's moments if its pixels had so many times the noise, and candidates the errors that they have: what is left
+/// of a product without the noise, taken0 + taken1 - error of it, is theirs.
+DenoiseMoments withNoise(DenoiseMoments m, float times) {
+    const float more = times - 1.0;
+    m.product00 += more * (2.0 * m.taken0 - m.error);
+    m.product01 += more * (m.taken0 + m.taken1 - m.error);
+    m.product02 += more * (m.taken0 + m.taken2 - m.error);
+    m.product11 += more * (2.0 * m.taken1 - m.error);
+    m.product12 += more * (m.taken1 + m.taken2 - m.error);
+    m.product22 += more * (2.0 * m.taken2 - m.error);
+    m.taken0 *= times;
+    m.taken1 *= times;
+    m.taken2 *= times;
+    m.error *= times;
+    return m;
+}
+
 /// The share of a candidate that makes the error least while the others stay: `taken` is what is left for it to take,
 /// `room` what the others leave of 1.
 float shareOf(float taken, float product, float room) {
-    const float best = taken / ((1.0 + DENOISE_RIDGE) * product + 1e-30); // no 0 / 0 where nothing would change
+    // No 0 / 0 where nothing would change. A candidate that follows the noise, as one does that finds no neighbours, takes
+    // none of a pixel's excess, and less than nothing may be left of its product.
+    const float best = product >= 0.0 ? taken / ((1.0 + DENOISE_RIDGE) * product + 1e-30) : 0.0;
     return clamp(best, 0.0, max(room, 0.0));
 }
 
@@ -64,7 +91,8 @@ vec2 errorWith(DenoiseMoments m, vec3 s) {
 
 DenoiseCandidate fetchCandidate(uint place, uint number) {
     const uint row = 6u * place + 2u * number;
-    return DenoiseCandidate(ROW(candidateRows, row).xyz, 0.0, ROW(candidateRows, row + 1u).xyz, 0.0);
+    const vec4 change = ROW(candidateRows, row);
+    return DenoiseCandidate(change.xyz, change.w, ROW(candidateRows, row + 1u).xyz, 0.0);
 }
 
 /// What an error is compared with where it is stated: what the wide candidate makes of either half, on the mean. One bright
@@ -81,19 +109,20 @@ void main() {
         const DenoiseCandidate c0 = fetchCandidate(place.index, 0u), c1 = fetchCandidate(place.index, 1u),
                                c2 = fetchCandidate(place.index, 2u);
         const DenoiseMoments window = windowAround(place);
-        const vec3 shares = sharesOf(window);
+        const uint row = 3u * place.index;
+        const DenoiseMoments alone =
+            momentsOf(ROW(momentRows, row), ROW(momentRows, row + 1u), ROW(momentRows, row + 2u));
+        const float noisiness = noisinessOf(own, fetchVariance(place.index), alone, window);
+        const vec3 shares = sharesOf(withNoise(window, noisiness));
         // What is not known has no share in the picture: the widest candidate takes its place.
         const vec3 seen = own.weight > 0.0 ? shares : vec3(shares.xy, 1.0 - shares.x - shares.y);
         const vec3 mean = own.mean + seen.x * c0.change + seen.y * c1.change + seen.z * c2.change;
 
-        const uint row = 3u * place.index;
-        const DenoiseMoments alone =
-            momentsOf(ROW(momentRows, row), ROW(momentRows, row + 1u), ROW(momentRows, row + 2u));
         // Half of what the blends of the two halves differ by: the noise that is left.
         const float rest = 1.0 - shares.x - shares.y - shares.z;
         const vec3 left = rest * own.deviation + shares.x * c0.deviation + shares.y * c1.deviation + shares.z * c2.deviation;
         const vec3 chosenBy = countOf(own, own.mean + c1.change), stated = statedCountOf(own, c2);
-        const float noise = alone.noise * dot(stated, vec3(1.0)) / dot(chosenBy, vec3(1.0));
+        const float noise = c0.noise * dot(stated, vec3(1.0)) / dot(chosenBy, vec3(1.0));
         const float variance = dot(stated, left * left) / 3.0;
         const vec2 ofWindow = errorWith(window, shares) / max(window.pixels, 1.0) * noise / 3.0;
         const vec2 ofPixel = errorWith(alone, shares) * noise / 3.0;

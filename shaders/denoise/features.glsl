@@ -1,10 +1,13 @@
 // What tells surfaces apart, and weights by it.
 
 DenoisePixel fetchPixel(uint index) {
-    const vec4 r0 = ROW(pixelRows, 4u * index), r1 = ROW(pixelRows, 4u * index + 1u);
-    const vec4 r2 = ROW(pixelRows, 4u * index + 2u), r3 = ROW(pixelRows, 4u * index + 3u);
-    return DenoisePixel(r0.xyz, r0.w, r1.xyz, r1.w, r2.xyz, r2.w, r3.xyz, r3.w);
+    const vec4 r0 = ROW(pixelRows, 5u * index), r1 = ROW(pixelRows, 5u * index + 1u);
+    const vec4 r2 = ROW(pixelRows, 5u * index + 2u), r3 = ROW(pixelRows, 5u * index + 3u);
+    return DenoisePixel(r0.xyz, r0.w, r1.xyz, r1.w, r2.xyz, r2.w, r3.xyz, r3.w, 0.0, 0.0, 0.0, 0.0);
 }
+
+/// DenoisePixel::variance, which few need.
+float fetchVariance(uint index) { return ROW(pixelRows, 5u * index + 4u).x; }
 
 float squareOf(vec3 v) { return dot(v, v); }
 

@@ -67,7 +67,7 @@ DenoiseCandidate candidateOf(DenoisePixel own, Halves h) {
 }
 
 void store(uint place, uint number, DenoiseCandidate c) {
-    WRITE_ROW(candidateRows, 6u * place + 2u * number, vec4(c.change, 0.0));
+    WRITE_ROW(candidateRows, 6u * place + 2u * number, vec4(c.change, c.noise));
     WRITE_ROW(candidateRows, 6u * place + 2u * number + 1u, vec4(c.deviation, 0.0));
 }
 
@@ -77,19 +77,20 @@ void main() {
         const DenoisePixel own = fetchPixel(place.index);
         const DenoisePilot pilot = fetchPilot(place.index);
         const Gathered g = gather(place, own, pilot);
-        const DenoiseCandidate c0 = candidateOf(own, g.strict), c2 = candidateOf(own, g.wide);
+        DenoiseCandidate c0 = candidateOf(own, g.strict);
+        const DenoiseCandidate c2 = candidateOf(own, g.wide);
         const DenoiseCandidate c1 = DenoiseCandidate(ROW(regressionRows, 2u * place.index).xyz, 0.0,
                                                      ROW(regressionRows, 2u * place.index + 1u).xyz, 0.0);
-        store(place.index, 0u, c0);
-        store(place.index, 1u, c1);
-        store(place.index, 2u, c2);
-
         // Errors count relative to the radiance, as relMSE has it, of which the regression says how large it is, since it
         // takes no light over an edge; and to the noise that the neighbours say the pixel has, so that one of them does
         // not decide for all.
         const vec3 relative = countOf(own, own.mean + c1.change);
         const float noise = sqrt(dot(relative, vec3(pilot.noise)) + DENOISE_LEAST_NOISE);
         const vec3 count = own.weight / noise * relative;
+        c0.noise = noise;
+        store(place.index, 0u, c0);
+        store(place.index, 1u, c1);
+        store(place.index, 2u, c2);
         const vec3 taken0 = own.deviation * (own.deviation - c0.deviation);
         const vec3 taken1 = own.deviation * (own.deviation - c1.deviation);
         const vec3 taken2 = own.deviation * (own.deviation - c2.deviation);
@@ -101,6 +102,7 @@ void main() {
                   vec4(dot(count, c1.change * c2.change), dot(count, c2.change * c2.change), dot(count, taken0),
                        dot(count, taken1)));
         WRITE_ROW(momentRows, row + 2u,
-                  vec4(dot(count, taken2), dot(count, own.deviation * own.deviation), own.weight, noise));
+                  vec4(dot(count, taken2), dot(count, own.deviation * own.deviation), own.weight,
+                       dot(count, vec3(fetchVariance(place.index) / 3.0))));
     }
 }

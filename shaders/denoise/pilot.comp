@@ -16,14 +16,16 @@ DenoisePilot pilotOf(Place place) {
     for (int dy = -DENOISE_PILOT_REACH; dy <= DENOISE_PILOT_REACH; ++dy)
         for (int dx = -DENOISE_PILOT_REACH; dx <= DENOISE_PILOT_REACH; ++dx) {
             const bool isThere = isInPicture(place.x + dx, place.y + dy);
-            const DenoisePixel q = fetchPixel(isThere ? indexBeside(place, dx, dy) : place.index);
+            const uint index = isThere ? indexBeside(place, dx, dy) : place.index;
+            const DenoisePixel q = fetchPixel(index);
             const vec3 unlike = featureDifferences(own, q, float(dx), float(dy));
             const float weight = isThere ? q.weight * expOfNegative(0.5 * dot(unlike, DENOISE_PILOT_SCALE)) : 0.0;
             sum += weight;
             sumOfSquares += weight * weight;
             mean += weight * q.mean;
             deviation += weight * q.deviation;
-            variance += weight * squareOf(q.deviation);
+            // A deviation is one number, and may be small by chance; halves know of clumps that samples hide.
+            variance += weight * max(squareOf(q.deviation), fetchVariance(index));
         }
     const float inverse = sum > 0.0 ? 1.0 / sum : 0.0;
     // A half has twice the variance of the mean of both.

@@ -32,8 +32,10 @@ struct DenoisePixel {
     float slopeX; ///< of the disparity, by pixel
     vec3 normal;
     float slopeY;
+    float variance; ///< of the mean, by the samples' own spread where that is known; summed over channels
+    float unused0, unused1, unused2;
 };
-SHARED_ROWS(DenoisePixel, 4);
+SHARED_ROWS(DenoisePixel, 5);
 
 /// What a small filter that looks at surfaces alone makes of it: what its radiance is compared by.
 struct DenoisePilot {
@@ -47,9 +49,9 @@ SHARED_ROWS(DenoisePilot, 2);
 /// A candidate beside the mean of a pixel.
 struct DenoiseCandidate {
     vec3 change;      ///< of the mean
-    float unused0;
+    float noise;      ///< of the first candidate: what the pixel's moments are relative to
     vec3 deviation;   ///< half of what it makes of the two halves differs by so much
-    float unused1;
+    float unused;
 };
 SHARED_ROWS(DenoiseCandidate, 2);
 
@@ -60,7 +62,7 @@ struct DenoiseMoments {
     float product12, product22, taken0, taken1;
     float taken2, error;
     float pixels; ///< 1; 0: unknown
-    float noise;  ///< what the error is relative to
+    float spread; ///< the variance by the samples' own spread, relative to what the error is
 };
 SHARED_ROWS(DenoiseMoments, 3);
 
@@ -90,7 +92,7 @@ SHARED_CONST vec3 DENOISE_STRICT_SCALE = vec3(1.0f / (0.1f * 0.1f), 1.0f / (0.1f
 SHARED_CONST vec3 DENOISE_WIDE_SCALE = vec3(1.0f / (0.2f * 0.2f), 1.0f / (0.15f * 0.15f), 1.0f / (0.03f * 0.03f));
 /// How unlike the radiance of pilots may be, in what their variances explain: a candidate that is strict, and two that
 /// keep no more than the edges of lamps, which no layer shows.
-SHARED_CONST float DENOISE_STRICT_COLOR = 1.0f / (0.8f * 0.8f);
+SHARED_CONST float DENOISE_STRICT_COLOR = 1.0f / (1.25f * 1.25f);
 SHARED_CONST float DENOISE_LOOSE_COLOR = 1.0f / (1.5f * 1.5f);
 
 /// The regression: pixels to each side that it looks at; the exponent by which a neighbour counts less for its squared
@@ -102,7 +104,7 @@ SHARED_CONST float DENOISE_REGRESSION_STEP = 0.1f;
 SHARED_CONST float DENOISE_REGRESSION_RIDGE = 1e-5f;
 
 /// Pixels to each side of the pilot's window, and of that over which moments are summed.
-SHARED_CONST int DENOISE_PILOT_REACH = 3;
+SHARED_CONST int DENOISE_PILOT_REACH = 2;
 SHARED_CONST int DENOISE_WINDOW_REACH = 5;
 
 /// What rounding leaves of a pixel's relative squared error: (2^-20)^2. Less noise than that is none.
@@ -110,6 +112,9 @@ SHARED_CONST float DENOISE_LEAST_NOISE = 1e-12f;
 
 /// How often the shares of the candidates are improved one after the other.
 SHARED_CONST int DENOISE_SWEEPS = 16;
+/// How much less noise than its neighbours a pixel's own samples may say that it has, as a factor of its root: samples that
+/// agree may all have missed the same light.
+SHARED_CONST float DENOISE_LEAST_NOISINESS = 0.5f;
 /// By how much products of a candidate with itself are made larger, so that a candidate that is hardly needed is left out.
 SHARED_CONST float DENOISE_RIDGE = 0.1f;
 

@@ -10,6 +10,7 @@ namespace {
 using namespace test;
 using denoise::NoisyPicture;
 using denoise::Prepared;
+using denoise::sumOf;
 
 constexpr uint32_t kSide = 24;
 constexpr size_t kMiddle = 12 * kSide + 12;
@@ -67,6 +68,23 @@ TEST(Outliers, ABrightPixelThatAllSamplesAgreeOnStays) {
     denoise::limitOutliers(picture);
     EXPECT_EQ(picture.limitedPixels, 0u);
     EXPECT_EQ(picture.movedLight, 0);
+}
+
+/// No neighbour shows the surface of this one, as is so at edges: then all neighbours say how
+/// bright it may be.
+TEST(Outliers, AnEdgeThatASampleMakesIsLimitedByItsNeighbours) {
+    NoisyPicture noisy = greyPicture();
+    noisy.normal[kMiddle] = {0.8f, 0.6f, 0};
+    noisy.albedo[kMiddle] = glm::vec3(0.9f);
+    noisy.mean[kMiddle] = {50, 40, 30};
+    noisy.deviation[kMiddle] = noisy.mean[kMiddle];
+    Prepared picture = denoise::prepare(noisy);
+    const glm::dvec3 before = lightOf(picture);
+    denoise::limitOutliers(picture);
+    EXPECT_EQ(picture.limitedPixels, 1u);
+    EXPECT_NEAR(sumOf(lightOf(picture)), sumOf(before), 1e-5 * sumOf(before));
+    // What it was is above 55, and it gets back some of that.
+    EXPECT_LT(picture.pixels[kMiddle].mean.x, 10 * picture.scale);
 }
 
 /// Where all pixels rest on single samples none is unlike the others.

@@ -73,4 +73,8 @@ Truth room(uint32_t x, uint32_t y, float sigma) {
     return t;
 }
 
+float mixed(uint32_t x, uint32_t y, uint32_t which) {
+    return float((x * 7919 + y * 104729 + which * 1299709) * 2654435761u >> 22) * 0x1p-10f;
+}
+
 } // namespace stromboli::test

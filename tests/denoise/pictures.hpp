@@ -29,4 +29,7 @@ double relMse(const std::vector<glm::vec3>& picture, uint32_t width, const Truth
 /// no layer knows of, light that falls off.
 Truth room(uint32_t x, uint32_t y, float sigma);
 
+/// Numbers from 0 to 1 that do not repeat.
+float mixed(uint32_t x, uint32_t y, uint32_t which);
+
 } // namespace stromboli::test

@@ -16,11 +16,6 @@ using namespace test;
 
 constexpr uint32_t kPatch = 40;
 
-/// Numbers from 0 to 1 that do not repeat.
-float mixed(uint32_t x, uint32_t y, uint32_t which) {
-    return float((x * 7919 + y * 104729 + which * 1299709) * 2654435761u >> 22) * 0x1p-10f;
-}
-
 /// Radiance that is a linear function of the albedo's mean, the normal and the place.
 Truth linear(uint32_t x, uint32_t y) {
     Truth t;
