@@ -80,12 +80,13 @@ class Limiter {
         return q.weight * std::exp(-0.5 * glm::dot(unlike, glm::dvec3(gpu::DENOISE_PILOT_SCALE)));
     }
 
-    /// ... where those of other surfaces count for something.
+    /// The weight where neighbours of other surfaces count for something.
     double weightOf(int x, int y, int u, int v, double foreign) const {
         return glm::mix(weightOf(x, y, u, v), double(picture_.pixels[at(u, v)].weight), foreign);
     }
 
-    /// What neighbours of other surfaces have to count for, from 0 to 1, so that enough count.
+    /// What neighbours of other surfaces have to count for so that enough count; above 1 there are
+    /// too few.
     double foreignAround(int x, int y) const {
         double same = 0, all = 0;
         forEachNear(x, y, [&](int u, int v) {
@@ -93,8 +94,8 @@ class Limiter {
             same += weightOf(x, y, u, v);
             all += picture_.pixels[at(u, v)].weight;
         });
-        if (same >= kLeastNeighbours || all <= same) return 0;
-        return std::min((kLeastNeighbours - same) / (all - same), 1.0);
+        if (same >= kLeastNeighbours) return 0;
+        return all > same ? (kLeastNeighbours - same) / (all - same) : kLeastNeighbours;
     }
 
     Gift giftOf(int x, int y) const {
@@ -104,6 +105,7 @@ class Limiter {
         // Nearly all pixels are told by themselves.
         if (p.weight == 0 || deviation <= 0.5 * own) return gift;
         gift.foreign = foreignAround(x, y);
+        if (gift.foreign > 1) return gift;
         double sum = 0, squares = 0, mean = 0, variance = 0;
         forEachNear(x, y, [&](int u, int v) {
             if (u == x && v == y) return;
@@ -114,7 +116,6 @@ class Limiter {
             mean += weight * sumOf(q.mean);
             variance += weight * error * error;
         });
-        if (sum < kLeastNeighbours * (1 - 1e-6)) return gift; // rounding
         mean /= sum, variance /= sum;
         const double limit =
             std::max(mean, 0.0) + kAllowed * std::sqrt(variance * (1 + squares / (sum * sum)));
