@@ -25,6 +25,18 @@ struct Gift {
     float keeps = 1;       ///< what is left of the pixel's radiance
 };
 
+/// Sums over the neighbours of a pixel.
+struct Neighbours {
+    double weights = 0, squares = 0, radiance = 0, variance = 0;
+
+    void add(double weight, const gpu::DenoisePixel& q) {
+        const double error = sumOf(glm::abs(glm::dvec3(q.deviation)));
+        weights += weight, squares += weight * weight;
+        radiance += weight * sumOf(q.mean);
+        variance += weight * error * error;
+    }
+};
+
 class Limiter {
   public:
     explicit Limiter(Prepared& picture)
@@ -85,38 +97,32 @@ class Limiter {
         return glm::mix(weightOf(x, y, u, v), double(picture_.pixels[at(u, v)].weight), foreign);
     }
 
-    /// What neighbours of other surfaces have to count for so that enough count; above 1 there are
-    /// too few.
-    double foreignAround(int x, int y) const {
-        double same = 0, all = 0;
-        forEachNear(x, y, [&](int u, int v) {
-            if (u == x && v == y) return;
-            same += weightOf(x, y, u, v);
-            all += picture_.pixels[at(u, v)].weight;
-        });
-        if (same >= kLeastNeighbours) return 0;
-        return all > same ? (kLeastNeighbours - same) / (all - same) : kLeastNeighbours;
-    }
-
     Gift giftOf(int x, int y) const {
         const gpu::DenoisePixel& p = picture_.pixels[at(x, y)];
         const double own = sumOf(p.mean), deviation = sumOf(glm::abs(glm::dvec3(p.deviation)));
         Gift gift;
         // Nearly all pixels are told by themselves.
         if (p.weight == 0 || deviation <= 0.5 * own) return gift;
-        gift.foreign = foreignAround(x, y);
-        if (gift.foreign > 1) return gift;
-        double sum = 0, squares = 0, mean = 0, variance = 0;
+        Neighbours same, all;
+        double products = 0;
         forEachNear(x, y, [&](int u, int v) {
             if (u == x && v == y) return;
             const gpu::DenoisePixel& q = picture_.pixels[at(u, v)];
-            const double weight = weightOf(x, y, u, v, gift.foreign);
-            const double error = sumOf(glm::abs(glm::dvec3(q.deviation)));
-            sum += weight, squares += weight * weight;
-            mean += weight * sumOf(q.mean);
-            variance += weight * error * error;
+            const double weight = weightOf(x, y, u, v);
+            same.add(weight, q);
+            all.add(double(q.weight), q);
+            products += weight * double(q.weight);
         });
-        mean /= sum, variance /= sum;
+        if (all.weights < kLeastNeighbours) return gift;
+        if (same.weights < kLeastNeighbours)
+            gift.foreign = (kLeastNeighbours - same.weights) / (all.weights - same.weights);
+        // What weightOf(x, y, u, v, gift.foreign) would add up to.
+        const double foreign = gift.foreign, familiar = 1 - foreign;
+        const double sum = glm::mix(same.weights, all.weights, foreign);
+        const double squares = familiar * familiar * same.squares +
+                               2 * familiar * foreign * products + foreign * foreign * all.squares;
+        const double mean = glm::mix(same.radiance, all.radiance, foreign) / sum;
+        const double variance = glm::mix(same.variance, all.variance, foreign) / sum;
         const double limit =
             std::max(mean, 0.0) + kAllowed * std::sqrt(variance * (1 + squares / (sum * sum)));
         if (!(own > limit)) return gift;
