@@ -39,6 +39,11 @@ size_t KeptPixels::bytesPerPixel() const {
     return as == As::States ? strands * sizeof(gpu::PixelState) : sizeof(StatisticsBytes);
 }
 
+bool KeptPixels::isWhole() const {
+    return (as == As::Statistics || as == As::States) && strands > 0 &&
+           bytes.size() % bytesPerPixel() == 0;
+}
+
 std::span<const gpu::PixelState> KeptPixels::states() const {
     if (as != As::States) throw std::invalid_argument("the saved film is not the kernel's");
     return {reinterpret_cast<const gpu::PixelState*>(bytes.data()),

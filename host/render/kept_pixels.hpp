@@ -28,6 +28,8 @@ struct KeptPixels {
     std::vector<std::byte> bytes;
 
     size_t bytesPerPixel() const;
+    /// Whether this is a kind that there is, and the bytes are those of whole pixels.
+    bool isWhole() const;
     size_t count() const { return bytes.size() / bytesPerPixel(); }
     PixelStatistics statistics(size_t pixel) const;
 

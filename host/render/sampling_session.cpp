@@ -197,6 +197,7 @@ SessionState sessionFromBytes(std::span<const std::byte> bytes) {
     SessionState state;
     pass(reader, state);
     if (!reader.bytes.empty()) throw UsageError("the saved render is longer than expected");
+    if (!state.pixels.isWhole()) throw UsageError("the saved render has pixels of no known kind");
     return state;
 }
 

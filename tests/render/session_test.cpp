@@ -244,6 +244,22 @@ TEST_F(Session, AnotherEstimatorIsCompiledOnce) {
     EXPECT_EQ(testDevice().pipelinesMade(), pipelines + 1);
 }
 
+/// Its checksum is right, as that of a file that somebody made.
+TEST_F(Session, PixelsOfNoKnownKindAreRefused) {
+    SessionState state;
+    state.pixels.empty(3);
+    EXPECT_EQ(sessionFromBytes(toBytes(state)).pixels.count(), 3u);
+    const auto isRefused = [&](const auto& damage) {
+        SessionState damaged = state;
+        damage(damaged.pixels);
+        EXPECT_THROW(sessionFromBytes(toBytes(damaged)), UsageError);
+    };
+    isRefused([](KeptPixels& p) { p.strands = 0, p.as = KeptPixels::As::States; });
+    isRefused([](KeptPixels& p) { p.strands = 5, p.as = KeptPixels::As::States; });
+    isRefused([](KeptPixels& p) { p.as = KeptPixels::As(7); });
+    isRefused([](KeptPixels& p) { p.bytes.pop_back(); });
+}
+
 TEST_F(Session, DamagedStatesAreRefused) {
     const RenderSettings s = settings({.mostSamplesPerPixel = 4}, 3, 2);
     const std::unique_ptr<Backend> backend = reference(s);
