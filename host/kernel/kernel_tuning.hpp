@@ -117,7 +117,7 @@ class DispatchPace {
 /// so that its parts have the bytes that they have in it.
 uint32_t strandsThatSuit(const DeviceTuning& tuning, uint64_t pixels);
 
-/// With no more lanes and items of a work list than so many pixels have strands.
+/// Has no more lanes and items of a work list than so many pixels have strands.
 DeviceTuning forPixels(DeviceTuning tuning, uint64_t pixels);
 
 } // namespace stromboli

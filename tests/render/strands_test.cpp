@@ -43,7 +43,7 @@ class Strands : public DeviceTest {
     }
 };
 
-/// The same samples in other sums: those of floats and what rounding took from them, to 2^-40 or
+/// Sums differ, and samples do not: those of floats and what rounding took from them, to 2^-40 or
 /// so, and less of the squares.
 TEST_F(Strands, HaveTheSamplesOfOne) {
     const Film one = filmOf(settings(1));
@@ -120,7 +120,7 @@ TEST_F(Strands, SamplesByThemselvesAreThoseOfOne) {
     }
 }
 
-/// Of a checkpoint that another device has begun, too.
+/// A checkpoint goes on with its strands on another device, too.
 TEST_F(Strands, OfASessionGoOnAsTheyWere) {
     const RenderSettings s = settings(4);
     VulkanBackend first = backend(s, {.lanes = 64, .fixedIterations = 5});
