@@ -49,10 +49,10 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     return t;
 }
 
-/// Lanes that a large GPU has under way at a time.
+/// Lanes that a large GPU has under way at a time: an H200 has 132 multiprocessors of 2,048.
 constexpr uint32_t kLanesOfGpu = 1u << 18;
 
-/// More strands than this cost more to add up than their lanes gain.
+/// The host adds strands up, and a first pass has 4 to 16 samples to deal out. Not measured.
 constexpr uint32_t kMostStrands = 16;
 
 /// A GPU needs a lane per pixel, up to a million, to hide the latency of its memory, and several

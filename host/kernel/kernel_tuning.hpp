@@ -31,7 +31,7 @@ struct KernelTuning {
     std::optional<bool> stepsBranch;        ///< a traversal step leaves out what no lane needs
     std::optional<PathScheduler> scheduler;
     std::optional<uint32_t> lanes;       ///< invocations of a dispatch; wavefront: paths under way
-    std::optional<uint32_t> lanesToFill; ///< that keep the device busy; 0: the fewest do
+    std::optional<uint32_t> lanesToFill; ///< that keep the device busy; 0: one at a pixel
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
     std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
     double targetSeconds = 0.1;               ///< of a dispatch
@@ -60,7 +60,7 @@ struct DeviceTuning {
     bool stepsBranch = false;   ///< a step of the traversal leaves out what no lane needs
     PathScheduler scheduler = PathScheduler::Persistent;
     uint32_t lanes = 1u << 20;
-    uint32_t lanesToFill = 0;   ///< that keep the device busy: smaller pictures have strands
+    uint32_t lanesToFill = 0;   ///< that keep the device busy; 0: one at a pixel
     uint32_t strands = 1;       ///< of a pixel (gpu::PixelState)
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;

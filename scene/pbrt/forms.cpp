@@ -62,6 +62,7 @@ Form plyMesh(Context& context, const Parameters& shape) {
     Form form;
     form.mesh = build::meshOfScene(scene);
     form.mesh.isFlat = form.mesh.normals.empty();
+    if (!context.isV3()) form.countFaces = [file] { return facesOfPly(file); };
     for (VertexAttributes& a : form.mesh.attributes) {
         form.hasCoordinates = form.hasCoordinates || a.uv[0] != glm::vec2(0);
         a.uv[0].y = 1 - a.uv[0].y; // the reader turns v upside down

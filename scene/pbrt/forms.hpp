@@ -13,8 +13,10 @@ namespace stromboli::pbrt {
 /// What a shape is in its own space: v of texture coordinates grows upwards in pictures.
 struct Form {
     build::Mesh mesh;
-    bool hasCoordinates = false;        ///< of textures
-    size_t patches = 0;                 ///< of a bilinear mesh, each of which pbrt has as a shape
+    bool hasCoordinates = false; ///< of textures
+    size_t patches = 0;          ///< of a bilinear mesh, each of which pbrt has as a shape
+    /// The faces of a mesh, where some may have four corners: pbrt-v4 has these as patches.
+    std::function<size_t()> countFaces;
     std::optional<double> sphereRadius; ///< a whole sphere about the origin
     /// Makes the mesh of such a sphere, which is seldom needed and large.
     std::function<build::Mesh()> makeMesh;

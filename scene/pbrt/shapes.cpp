@@ -139,7 +139,9 @@ double Shapes::lightArea(Form& form, const ShapeState& state, const std::string&
         }
     const bool isMesh = kind == "trianglemesh" || kind == "plymesh" || kind == "loopsubdiv" ||
                         kind == "heightfield" || kind == "nurbs";
-    return area / double(std::max<size_t>(isMesh ? count : form.patches, 1));
+    size_t lights = isMesh ? count : form.patches;
+    if (const size_t faces = form.countFaces ? form.countFaces() : 0; faces > 0) lights = faces;
+    return area / double(std::max<size_t>(lights, 1));
 }
 
 void Shapes::fit(const BoundMaterial& material, const ShapeState& state, Form& form) {

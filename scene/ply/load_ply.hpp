@@ -3,6 +3,7 @@
 #include "scene/build/conventions.hpp"
 #include "scene/model/scene.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -22,6 +23,10 @@ struct PlyAttribute {
 Scene loadPly(const std::filesystem::path& file, const SceneConventions& conventions = {});
 Scene loadPlyWith(const PlyAttribute& colors, const std::filesystem::path& file,
                   const SceneConventions& conventions);
+
+/// How many faces a PLY file has, of any number of corners, as its header says; 0: it has no such
+/// element. Throws as loadPly().
+uint64_t facesOfPly(const std::filesystem::path& file);
 
 /// True if a file begins with the line "ply".
 bool looksLikePly(std::string_view beginning);

@@ -170,6 +170,21 @@ TEST(PbrtAreaLights, HavePowerByPatches) {
     expectNear(emission(loadV4(light + one)), glm::dvec3(10 / pi), 1e-4);
     expectNear(emission(loadV4(light + two)), glm::dvec3(10 / pi), 1e-4);
     EXPECT_EQ(problemInV4(light + two), "");
+
+    // A PLY file's face of four corners is a patch, and one of three a triangle.
+    const std::string vertices = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                 "property float y\nproperty float z\nelement face ",
+                      corners = "\nproperty list uchar int vertex_indices\nend_header\n"
+                                "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    writeFile("patch.ply", vertices + "1" + corners + "4 0 1 2 3\n");
+    writeFile("triangles.ply", vertices + "2" + corners + "3 0 1 2\n3 0 2 3\n");
+    const auto ofFile = [&](const std::string& file) {
+        return "AreaLightSource \"diffuse\" \"float power\" 10 Shape \"plymesh\" \"string "
+               "filename\" \"" +
+               file + "\"";
+    };
+    expectNear(emission(loadV4(ofFile("patch.ply"))), glm::dvec3(10 / pi), 1e-4);
+    expectNear(emission(loadV4(ofFile("triangles.ply"))), glm::dvec3(20 / pi), 1e-4);
 }
 
 /// What an environment has in a direction: the texel there (scene/model/environment.hpp).
