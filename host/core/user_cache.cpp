@@ -105,9 +105,9 @@ void BlobCache::removeOldest() const {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
         if (entry.path().filename().string().find(kEnding) != std::string::npos)
             files.emplace_back(entry.last_write_time(), entry.path());
-    if (files.size() <= kMostBlobs) return;
+    if (files.size() <= most_) return;
     std::sort(files.begin(), files.end());
-    for (size_t i = 0; i + kMostBlobs < files.size(); ++i)
+    for (size_t i = 0; i + most_ < files.size(); ++i)
         fs::remove(files[i].second);
 }
 

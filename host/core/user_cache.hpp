@@ -28,12 +28,19 @@ class BlobCache {
   public:
     /// Larger blobs are neither kept nor read.
     static constexpr uint64_t kMostBytes = uint64_t(16) << 20;
-    /// Blobs in a folder; when one is kept, those that were written longest ago make room.
+    /// Blobs in a folder, if its user asks for no other number.
     static constexpr size_t kMostBlobs = 8;
 
-    /// `messages`: who is told, in detail, of files that are damaged or cannot be written.
-    explicit BlobCache(std::filesystem::path folder, Messages messages = {})
-        : folder_(std::move(folder)), messages_(std::move(messages)) {}
+    /// `messages`: who is told, in detail, of files that are damaged or cannot be written. `most`:
+    /// blobs in the folder; when one is kept, those that were written longest ago make room.
+    explicit BlobCache(std::filesystem::path folder, Messages messages = {},
+                       size_t most = kMostBlobs)
+        : folder_(std::move(folder)), messages_(std::move(messages)), most_(most) {}
+
+    /// One in a folder of that name within this one's.
+    BlobCache within(const std::string& name, size_t most) const {
+        return BlobCache(folder_ / name, messages_, most);
+    }
 
     /// The blob last kept under `name`.
     std::optional<std::vector<std::byte>> find(const std::string& name) const;
@@ -47,6 +54,7 @@ class BlobCache {
 
     std::filesystem::path folder_;
     Messages messages_;
+    size_t most_;
 };
 
 } // namespace stromboli

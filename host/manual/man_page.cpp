@@ -16,7 +16,7 @@ namespace {
 /// What the program and its libraries heed.
 constexpr std::array kEnvironment = {
     Explained{"STROMBOLI_CACHE_DIR",
-              "folder for what a driver compiled, instead of stromboli in the user's cache folder; "
+              "folder for compiled kernels, instead of stromboli in the user's cache folder; "
               "empty: nothing is kept"},
     Explained{"STROMBOLI_VALIDATION",
               "1: the Vulkan validation layer is on, and any message of it fails the run"},

@@ -1,6 +1,5 @@
 #include "host/vulkan/compute_pipeline.hpp"
 
-#include "host/spirv/specialise.hpp"
 #include "host/vulkan/instance.hpp"
 
 #include <functional>
@@ -65,7 +64,8 @@ Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t
                                   std::span<const uint32_t> constants, VkPipelineLayout layout,
                                   Specialiser specialiser) {
     std::optional<std::vector<uint32_t>> specialised;
-    if (specialiser == Specialiser::Ours) specialised = spirv::specialise(words, constants);
+    if (specialiser == Specialiser::Ours)
+        specialised = device.specialisedModules().get(words, constants);
     if (specialised) {
         words = *specialised;
         constants = {};

@@ -2,6 +2,7 @@
 
 #include "host/vulkan/instance.hpp"
 #include "host/vulkan/pipeline_cache.hpp"
+#include "host/vulkan/specialised_modules.hpp"
 
 #include <atomic>
 #include <memory>
@@ -53,7 +54,7 @@ enum class DeviceUse {
 /// A logical device with one compute queue.
 class Device {
   public:
-    /// `cache`: where compiled pipelines are kept between runs; none: they are not. Throws
+    /// `cache`: where pipelines and modules are kept between runs; none: they are not. Throws
     /// DeviceError if the device cannot be opened, or cannot do what it is opened for.
     Device(const Instance& instance, const DeviceDescription& description,
            std::optional<BlobCache> cache = std::nullopt, DeviceUse use = DeviceUse::Rendering);
@@ -74,6 +75,7 @@ class Device {
     VkPipelineCache pipelineCache() const { return pipelines_->handle(); }
     /// Bytes of compiled pipelines that an earlier run left in the cache.
     size_t pipelineBytesFound() const { return pipelines_->bytesFound(); }
+    const SpecialisedModules& specialisedModules() const { return modules_; }
     /// Compute pipelines that are made already.
     KeptPipelines& keptPipelines() const { return kept_; }
     /// Device memory that the buffers of this device take now, bytes.
@@ -95,6 +97,7 @@ class Device {
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     VolkDeviceTable table_{};
+    SpecialisedModules modules_;
     std::unique_ptr<PipelineCache> pipelines_;
     mutable KeptPipelines kept_;
     mutable std::atomic<uint64_t> allocated_ = 0, pipelinesMade_ = 0, uploaded_ = 0;

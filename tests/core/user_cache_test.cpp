@@ -201,6 +201,21 @@ TEST_F(Cache, KeepsFewBlobsAndTouchesNothingElse) {
     EXPECT_EQ(contentOf(folder_ / "holiday.blob") + contentOf(folder_ / "notes"), "xx");
 }
 
+TEST_F(Cache, WithinAnotherHasAFolderAndANumberOfItsOwn) {
+    const BlobCache inner = cache_.within("inner", 2);
+    for (const char* name : {"a", "b", "c"}) {
+        cache_.keep(name, blobOf(20));
+        inner.keep(name, blobOf(10));
+    }
+    const auto kept = [](const BlobCache& cache) {
+        return cache.find("a").has_value() + cache.find("b").has_value() +
+               cache.find("c").has_value();
+    };
+    EXPECT_EQ(kept(cache_), 3);
+    EXPECT_EQ(kept(inner), 2);
+    EXPECT_THAT(cache_.find("c"), Optional(blobOf(20)));
+}
+
 TEST_F(Cache, LeftoversOfKilledProgramsGoWithTheOldest) {
     cache_.keep("a", blobOf(10));
     const std::string name = file().filename().string();
