@@ -68,7 +68,12 @@ void ObjReader::readStatement() {
 /// A number, or NaN for a word that says so. Programs of some countries write 1,5 for 1.5.
 double ObjReader::number(Words& words) {
     Words ahead = words;
-    std::string word(ahead.next());
+    const std::string_view stated = ahead.next();
+    if (const std::optional<double> value = build::realIn(stated)) { // nearly always
+        words = ahead;
+        return *value;
+    }
+    std::string word(stated);
     if (std::count(word.begin(), word.end(), ',') == 1) {
         std::replace(word.begin(), word.end(), ',', '.');
         if (const std::optional<double> value = build::realIn(word)) {
