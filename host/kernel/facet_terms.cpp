@@ -80,10 +80,8 @@ struct Microfacets {
 /// How many rings of normals are summed: integrals over views need fewer.
 constexpr int kCoarse = 64, kFine = 192;
 
-/// The shares of light from a direction that are reflected and transmitted after one scattering.
-struct Scattered {
-    double reflected = 0, transmitted = 0;
-};
+/// What becomes of light at a facet.
+enum class Way { Reflected, Transmitted };
 
 constexpr int kSectors = 48;
 
@@ -95,10 +93,12 @@ std::array<double, kSectors> sectorCosines() {
     return cosines;
 }
 
-Scattered scatteredBy(const Microfacets& facets, double eta, double cosine, int rings) {
+/// The share of light from a direction that goes this way after one scattering.
+template <Way way>
+double scatteredBy(const Microfacets& facets, double eta, double cosine, int rings) {
     static const std::array<double, kSectors> cosines = sectorCosines();
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), area = facets.area(cosine);
-    Scattered sum;
+    double sum = 0;
     for (int i = 0; i < rings; ++i) {
         // A substitution that makes the tails of GGX smooth: visible normals have 1 / cos more of
         // them.
@@ -112,11 +112,14 @@ Scattered scatteredBy(const Microfacets& facets, double eta, double cosine, int 
             double cosTransmitted = 0;
             const double f = fresnel(std::min(cosO, 1.0), eta, cosTransmitted);
             const double seen = ring / kSectors * cosO / (z * area);
-            const double reflectedZ = 2 * cosO * z - cosine;
-            if (reflectedZ > 0) sum.reflected += seen * f * facets.lit(area, cosine, reflectedZ);
-            const double transmittedZ = (eta * cosO - cosTransmitted) * z - eta * cosine;
-            if (f < 1 && transmittedZ < 0)
-                sum.transmitted += seen * (1 - f) * facets.lit(area, cosine, transmittedZ);
+            if constexpr (way == Way::Reflected) {
+                const double reflectedZ = 2 * cosO * z - cosine;
+                if (reflectedZ > 0) sum += seen * f * facets.lit(area, cosine, reflectedZ);
+            } else {
+                const double transmittedZ = (eta * cosO - cosTransmitted) * z - eta * cosine;
+                if (f < 1 && transmittedZ < 0)
+                    sum += seen * (1 - f) * facets.lit(area, cosine, transmittedZ);
+            }
         }
     }
     return sum;
@@ -158,7 +161,7 @@ double internalReflectance(double ior, double alpha, const Facets& facets, uint3
         double sum = 0;
         for (uint32_t i = 0; i < views; ++i) {
             const double mu = std::max(double(i) / (views - 1), 1e-6);
-            sum += 2 * mu * scatteredBy(shape, ior, mu, kCoarse).reflected;
+            sum += 2 * mu * scatteredBy<Way::Reflected>(shape, ior, mu, kCoarse);
         }
         return sum / views;
     }
@@ -171,7 +174,7 @@ double internalReflectance(double ior, double alpha, const Facets& facets, uint3
         const double s = (i + 0.5) / kViews;
         for (const double end : {0.0, 1.0}) {
             const double mu = critical + (end - critical) * s * s;
-            sum += 2 * mu * scatteredBy(shape, ior, mu, kCoarse).reflected * 2 * s *
+            sum += 2 * mu * scatteredBy<Way::Reflected>(shape, ior, mu, kCoarse) * 2 * s *
                    std::abs(end - critical) / kViews;
         }
     }
@@ -186,7 +189,7 @@ std::array<glm::vec4, gpu::TRANSMITTANCE_PIECES> transmittanceTable(double ior, 
     for (size_t i = 0; i < at.size(); ++i) {
         // A view along the surface (mu = 0) takes the limit.
         const double mu = std::max(square(double(i) / (3 * kPieces)), 1e-9);
-        at[i] = scatteredBy(shape, 1 / ior, mu, kFine).transmitted;
+        at[i] = scatteredBy<Way::Transmitted>(shape, 1 / ior, mu, kFine);
     }
     std::array<glm::vec4, kPieces> pieces;
     for (size_t i = 0; i < kPieces; ++i)
