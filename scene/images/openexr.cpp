@@ -136,51 +136,68 @@ ShownPart partWithLayer(const Imf::MultiPartInputFile& file, const std::string& 
                                          layers.empty() ? "" : ", but " + layers));
 }
 
-/// The numbers of a channel for each pixel of the data window. One that is there for every other
-/// column or row only is interpolated between them.
-std::vector<float> readChannel(Imf::InputPart& part, const std::string& channel) {
-    const Imath::Box2i window = part.header().dataWindow();
-    const auto width = size_t(widthOf(window)), height = size_t(heightOf(window));
-    const Imf::Channel* stated = part.header().channels().findChannel(channel);
-    const int xs = stated->xSampling, ys = stated->ySampling;
-    const size_t columns = (width - 1) / size_t(xs) + 1, rows = (height - 1) / size_t(ys) + 1;
-    std::vector<float> sampled(columns * rows);
-    Imf::FrameBuffer buffer;
-    buffer.insert(channel, Imf::Slice::Make(Imf::FLOAT, sampled.data(), window, sizeof(float),
-                                            sizeof(float) * columns, xs, ys));
-    part.setFrameBuffer(buffer);
-    part.readPixels(window.min.y, window.max.y);
-    if (xs == 1 && ys == 1) return sampled;
-    std::vector<float> values(width * height);
+/// A channel that is there for every other column or row only.
+struct Subsampled {
+    size_t place; ///< of the four of a pixel
+    size_t xs, ys, columns, rows;
+    std::vector<float> values;
+};
+
+/// Interpolates its numbers to all pixels.
+void spread(const Subsampled& channel, size_t width, size_t height, std::vector<float>& rgba) {
+    const std::vector<float>& values = channel.values;
+    const size_t columns = channel.columns, rows = channel.rows;
     for (size_t y = 0; y < height; ++y)
         for (size_t x = 0; x < width; ++x) {
-            const double u = double(x) / xs, v = double(y) / ys;
+            const double u = double(x) / double(channel.xs), v = double(y) / double(channel.ys);
             const size_t left = size_t(u), top = size_t(v);
             const size_t right = std::min(left + 1, columns - 1);
             const size_t lower = std::min(top + 1, rows - 1);
             const double a = u - double(left), b = v - double(top);
-            values[y * width + x] = float((1 - b) * ((1 - a) * sampled[top * columns + left] +
-                                                     a * sampled[top * columns + right]) +
-                                          b * ((1 - a) * sampled[lower * columns + left] +
-                                               a * sampled[lower * columns + right]));
+            rgba[(y * width + x) * 4 + channel.place] =
+                float((1 - b) * ((1 - a) * values[top * columns + left] +
+                                 a * values[top * columns + right]) +
+                      b * ((1 - a) * values[lower * columns + left] +
+                           a * values[lower * columns + right]));
         }
-    return values;
 }
 
-/// Red, green, blue and alpha of the data window.
+/// Red, green, blue and alpha of the data window. All channels are read at once: their blocks are
+/// compressed together.
 std::vector<float> readColors(Imf::InputPart& part, const ExrChannels& channels) {
     const Imath::Box2i window = part.header().dataWindow();
-    const size_t count = size_t(widthOf(window)) * size_t(heightOf(window));
-    std::vector<float> rgba(count * 4, 0.0f);
-    const auto read = [&](const std::string& channel, size_t place, float otherwise) {
-        const std::vector<float> values =
-            channel.empty() ? std::vector<float>(count, otherwise) : readChannel(part, channel);
-        for (size_t i = 0; i < count; ++i)
-            rgba[i * 4 + place] = values[i];
+    const auto width = size_t(widthOf(window)), height = size_t(heightOf(window));
+    std::vector<float> rgba(width * height * 4, 0.0f);
+    std::vector<Subsampled> subsampled;
+    Imf::FrameBuffer buffer;
+    const auto add = [&](const std::string& channel, size_t place) {
+        const Imf::Channel* stated = part.header().channels().findChannel(channel);
+        const int xs = stated->xSampling, ys = stated->ySampling;
+        if (xs == 1 && ys == 1) {
+            buffer.insert(channel, Imf::Slice::Make(Imf::FLOAT, rgba.data() + place, window,
+                                                    4 * sizeof(float), 4 * sizeof(float) * width));
+            return;
+        }
+        Subsampled s{place,
+                     size_t(xs),
+                     size_t(ys),
+                     (width - 1) / size_t(xs) + 1,
+                     (height - 1) / size_t(ys) + 1,
+                     {}};
+        s.values.resize(s.columns * s.rows);
+        buffer.insert(channel, Imf::Slice::Make(Imf::FLOAT, s.values.data(), window, sizeof(float),
+                                                sizeof(float) * s.columns, xs, ys));
+        subsampled.push_back(std::move(s));
     };
     for (size_t i = 0; i < 3; ++i)
-        if (i == 0 || !channels.isGrey) read(channels.color[i], i, 0);
-    read(channels.alpha, 3, 1);
+        if (!channels.color[i].empty() && (i == 0 || !channels.isGrey)) add(channels.color[i], i);
+    if (!channels.alpha.empty()) add(channels.alpha, 3);
+    part.setFrameBuffer(buffer);
+    part.readPixels(window.min.y, window.max.y);
+    for (const Subsampled& s : subsampled)
+        spread(s, width, height, rgba);
+    for (size_t i = 0; channels.alpha.empty() && i < rgba.size(); i += 4)
+        rgba[i + 3] = 1;
     for (size_t i = 0; channels.isGrey && i < rgba.size(); i += 4)
         rgba[i + 1] = rgba[i + 2] = rgba[i];
     if (channels.isLuminance) colorsOfLuminance(meaningOf(part.header()), rgba);
