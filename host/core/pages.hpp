@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace stromboli {
@@ -39,6 +40,16 @@ struct PageAllocator {
     }
     void deallocate(T* memory, std::size_t) {
         ::operator delete(memory, std::align_val_t(kPageBytes));
+    }
+    /// Elements of an array that is made larger have no value, as new ones on the stack: to clear
+    /// an array of a hundred MB takes as long as to fill it, and on one thread.
+    template <class U>
+    void construct(U* element) {
+        ::new (static_cast<void*>(element)) U;
+    }
+    template <class U, class... Values>
+    void construct(U* element, Values&&... values) {
+        ::new (static_cast<void*>(element)) U(std::forward<Values>(values)...);
     }
     template <class U>
     bool operator==(const PageAllocator<U>&) const {

@@ -22,6 +22,8 @@ std::vector<AliasColumn> buildAliasTable(std::span<const double> weights) {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<double> scaled(n);
     std::vector<uint32_t> small, large;
+    small.reserve(n);
+    large.reserve(n);
     for (uint32_t i = 0; i < n; ++i) {
         scaled[i] = weights[i] * double(n) / sum;
         (scaled[i] < 1 ? small : large).push_back(i);
@@ -73,10 +75,12 @@ void encodeRadiance(const glm::vec3& radiance, gpu::EnvironmentTexel& texel) {
     const int exponent = std::clamp(power - int(gpu::ENVIRONMENT_MANTISSA_BITS) +
                                         int(gpu::ENVIRONMENT_EXPONENT_BIAS),
                                     kLeastExponent, kMostExponent);
-    const float scale = scaleOf(exponent);
+    // The reciprocal of a power of two is one, so that the product is the quotient.
+    static_assert(2 * int(gpu::ENVIRONMENT_EXPONENT_BIAS) - kMostExponent >= kLeastExponent);
+    const float reciprocal = scaleOf(2 * int(gpu::ENVIRONMENT_EXPONENT_BIAS) - exponent);
     uint32_t mantissa[3];
     for (int c = 0; c < 3; ++c)
-        mantissa[c] = std::min(uint32_t(radiance[c] / scale + 0.5f), kMostMantissa);
+        mantissa[c] = std::min(uint32_t(radiance[c] * reciprocal + 0.5f), kMostMantissa);
     texel.low = mantissa[0] | mantissa[1] << 18;
     texel.high = mantissa[1] >> 14 | mantissa[2] << 4 | uint32_t(exponent) << 22;
 }
@@ -106,16 +110,15 @@ struct Tiles {
     }
 
     uint32_t count() const { return across * down; }
-    /// Calls f(texel, number in the tile) for the texels of a tile, in order.
+    /// Calls f(texel, its row) for the texels of a tile, in order.
     template <class F>
     void forEachTexel(uint32_t tile, F f) const {
         const uint32_t x0 = tile % across << shift, y0 = tile / across << shift;
         const uint32_t x1 = std::min(x0 + (1u << shift), width),
                        y1 = std::min(y0 + (1u << shift), height);
-        uint32_t number = 0;
         for (uint32_t y = y0; y < y1; ++y)
             for (uint32_t x = x0; x < x1; ++x)
-                f(size_t(y) * width + x, number++);
+                f(size_t(y) * width + x, y);
     }
 };
 
@@ -140,12 +143,14 @@ TileSums packTile(const Environment& environment, const Tiles& tiles, uint32_t t
                   std::span<const double> sines, std::span<Row> texels) {
     std::vector<double> weights;
     std::vector<size_t> places;
+    weights.reserve(size_t(1) << 2 * tiles.shift);
+    places.reserve(size_t(1) << 2 * tiles.shift);
     TileSums sums;
-    tiles.forEachTexel(tile, [&](size_t place, uint32_t) {
+    tiles.forEachTexel(tile, [&](size_t place, uint32_t y) {
         gpu::EnvironmentTexel texel{};
         encodeRadiance(environment.radiance[place], texel);
         texels[place] = std::bit_cast<Row>(texel);
-        const double light = luminance(decodeRadiance(texel)), sine = sines[place / tiles.width];
+        const double light = luminance(decodeRadiance(texel)), sine = sines[y];
         weights.push_back(light * sine);
         places.push_back(place);
         sums.light += weights.back();

@@ -113,6 +113,7 @@ void TexelPacker::pack() {
 void TexelPacker::appendPlain(const std::vector<uint32_t>& words) {
     // Whole rows: of a part of a row, texel buffers read nothing.
     append({end_, (words.size() + 3) / 4, 1, [&words](int64_t, Row* rows) {
+                if (!words.empty()) rows[(words.size() - 1) / 4] = Row{};
                 for (size_t i = 0; i < words.size(); ++i)
                     rows[i / 4][i % 4] = words[i];
             }});
