@@ -171,12 +171,18 @@ std::array<uint8_t, kSlots> assignSlots(std::span<const Bounds> children) {
         const auto gain = gains(children[child], doubledMiddle);
         for (uint32_t i = kSetsBySize.start[child + 1]; i < kSetsBySize.start[child + 2]; ++i) {
             const uint32_t set = kSetsBySize.set[i];
-            best[set] = -std::numeric_limits<double>::infinity();
+            // Without branches, of which a processor would guess every third one wrongly.
+            double greatest = -std::numeric_limits<double>::infinity();
+            uint32_t last = 0;
             for (uint32_t rest = set; rest != 0; rest &= rest - 1) {
                 const uint32_t slot = uint32_t(std::countr_zero(rest));
                 const double total = best[set ^ 1u << slot] + gain[slot];
-                if (total > best[set]) best[set] = total, lastSlot[set] = uint8_t(slot);
+                const uint32_t isGreater = total > greatest ? ~0u : 0u;
+                last = (slot & isGreater) | (last & ~isGreater);
+                greatest = std::max(greatest, total);
             }
+            best[set] = greatest;
+            lastSlot[set] = uint8_t(last);
         }
     }
     const auto sets = kSetsBySize.set.begin();
