@@ -92,17 +92,18 @@ SkyModel::SkyModel(double turbidity, const glm::dvec3& albedo, double sunElevati
 }
 
 /// Equation 8 of the paper of 2012.
-glm::dvec3 SkyModel::sky(double cosine, double fromSun) const {
-    const double cosSun = std::cos(fromSun);
+glm::dvec3 SkyModel::sky(double cosine, double cosSun) const {
+    cosSun = std::clamp(cosSun, -1.0, 1.0);
+    const double fromSun = std::acos(cosSun), root = std::sqrt(cosine);
     glm::dvec3 result;
-    for (size_t c = 0; c < kChannels; ++c) {
-        const auto& [a, b, c_, d, e, f, g, i, h] = channels_[c].shape;
-        const double chi =
-            (1 + cosSun * cosSun) / std::pow(1 + h * h - 2 * h * cosSun, 1.5); // about the sun
+    for (size_t k = 0; k < kChannels; ++k) {
+        const auto& [a, b, c, d, e, f, g, i, h] = channels_[k].shape;
+        const double away = 1 + h * h - 2 * h * cosSun;
+        const double chi = (1 + cosSun * cosSun) / (away * std::sqrt(away)); // about the sun
         const double horizon = 1 + a * std::exp(b / (cosine + 0.01));
         const double rest =
-            c_ + d * std::exp(e * fromSun) + f * cosSun * cosSun + g * chi + i * std::sqrt(cosine);
-        result[glm::length_t(c)] = std::max(horizon * rest * channels_[c].radiance * kUnit, 0.0);
+            c + d * std::exp(e * fromSun) + f * cosSun * cosSun + g * chi + i * root;
+        result[glm::length_t(k)] = std::max(horizon * rest * channels_[k].radiance * kUnit, 0.0);
     }
     return result;
 }

@@ -13,8 +13,8 @@ class SkyModel {
     SkyModel(double turbidity, const glm::dvec3& albedo, double sunElevation);
 
     /// Radiance of the sky without the sun. cosine: of the angle from the zenith, not negative;
-    /// fromSun: the angle from the middle of the sun, radians.
-    glm::dvec3 sky(double cosine, double fromSun) const;
+    /// cosSun: of the angle from the middle of the sun.
+    glm::dvec3 sky(double cosine, double cosSun) const;
     /// The mean of the sun's disk, as it is in the sky.
     glm::dvec3 sun() const;
 

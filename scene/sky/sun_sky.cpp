@@ -20,11 +20,18 @@ constexpr uint32_t kWidthWithSun = 2048, kWidthOfSky = 512;
 struct PictureAround {
     uint32_t width, height;
 
-    /// column and row: 0 to the width and height.
-    glm::dvec3 direction(double column, double row) const {
+    /// Sine and cosine of how far a column lies from the middle, and a row from the top; 0 to the
+    /// width and height.
+    glm::dvec2 turnOf(double column) const {
         const double turn = glm::two_pi<double>() * (column / width - 0.5);
+        return {std::sin(turn), std::cos(turn)};
+    }
+    glm::dvec2 downOf(double row) const {
         const double down = glm::pi<double>() * row / height;
-        return {std::sin(down) * std::sin(turn), std::cos(down), -std::sin(down) * std::cos(turn)};
+        return {std::sin(down), std::cos(down)};
+    }
+    static glm::dvec3 direction(const glm::dvec2& turn, const glm::dvec2& down) {
+        return {down.x * turn.x, down.y, -down.x * turn.y};
     }
     size_t texelAt(const glm::dvec3& direction) const {
         const double turn = std::atan2(direction.x, -direction.z);
@@ -46,21 +53,24 @@ glm::vec3 skyIn(const SunSky& s, const SkyModel& model, const glm::dvec3& d) {
     glm::dvec3 seen = d;
     double share = 1;
     if (!(d.z >= 0)) {
-        const double across = std::hypot(d.x, d.y);
+        const double across = std::sqrt(d.x * d.x + d.y * d.y);
         if (!s.goesOn || !(across > 0)) return glm::vec3(0);
         seen = glm::dvec3(d.x / across, d.y / across, 0);
         share = glm::smoothstep(0.0, 1.0, 2 - 2 * std::acos(d.z) / glm::pi<double>());
     }
-    const double fromSun = std::acos(std::clamp(glm::dot(seen, s.sun), -1.0, 1.0));
-    return glm::vec3(share * s.skyScale * model.sky(seen.z, fromSun));
+    return glm::vec3(share * s.skyScale * model.sky(seen.z, glm::dot(seen, s.sun)));
 }
 
 void addSky(const SunSky& s, const SkyModel& model, const PictureAround& around,
             std::vector<glm::vec3>& picture) {
+    std::vector<glm::dvec2> turns;
+    for (uint32_t column = 0; column < around.width; ++column)
+        turns.push_back(around.turnOf(column + 0.5));
     tbb::parallel_for(0u, around.height, [&](uint32_t row) {
+        const glm::dvec2 down = around.downOf(row + 0.5);
         for (uint32_t column = 0; column < around.width; ++column) {
             const glm::dvec3 d =
-                glm::normalize(s.skyFromWorld * around.direction(column + 0.5, row + 0.5));
+                glm::normalize(s.skyFromWorld * PictureAround::direction(turns[column], down));
             picture[size_t(row) * around.width + column] += skyIn(s, model, d);
         }
     });
@@ -124,7 +134,8 @@ void addGround(Environment& picture, const glm::dvec3& albedo) {
     const size_t horizon = size_t(picture.height / 2) * picture.width;
     for (size_t texel = 0; texel < horizon; ++texel) {
         const glm::dvec3 d =
-            around.direction(0.5, 0.5 + double(texel / picture.width)); // its height is that of all
+            PictureAround::direction(around.turnOf(0.5), // its height is that of all
+                                     around.downOf(0.5 + double(texel / picture.width)));
         irradiance += glm::dvec3(picture.radiance[texel]) * d.y * around.solidAngle(texel);
     }
     for (size_t texel = horizon; texel < picture.radiance.size(); ++texel)
