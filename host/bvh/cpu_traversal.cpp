@@ -31,10 +31,6 @@ constexpr float kBoxSlack = 1.0f + 0x1p-18f;
 /// no 0 * infinity arises.
 constexpr float kLeastComponent = 0x1p-60f;
 
-uint32_t byteOf(const std::array<uint32_t, 2>& words, uint32_t slot) {
-    return words[slot / 4] >> (8 * (slot % 4)) & 255u;
-}
-
 } // namespace
 
 PreparedRay::PreparedRay(const glm::vec3& origin_, const glm::vec3& direction_)
@@ -53,37 +49,47 @@ PreparedRay::PreparedRay(const glm::vec3& origin_, const glm::vec3& direction_)
 }
 
 uint32_t enterChildren(const gpu::NodeRecord& node, const PreparedRay& ray, float tMax) {
+    using Bytes = std::array<uint8_t, gpu::WIDE_CHILDREN>;
     struct Axis {
         uint32_t gridWord;
-        std::array<uint32_t, 2> low, high;
+        Bytes low, high;
     };
-    const Axis axes[3] = {
-        {node.originAndExponentX, {node.lowX0, node.lowX1}, {node.highX0, node.highX1}},
-        {node.originAndExponentY, {node.lowY0, node.lowY1}, {node.highY0, node.highY1}},
-        {node.originAndExponentZ, {node.lowZ0, node.lowZ1}, {node.highZ0, node.highZ1}}};
-    uint32_t entered = 0;
-    for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
-        // Bit patterns, as the kernel compares them: those of floats that are not negative
-        // compare as the floats do, and negative ones are below them all.
-        int32_t enter = 0, last = std::bit_cast<int32_t>(tMax);
-        for (int i = 0; i < 3; ++i) {
-            const float origin = std::bit_cast<float>(axes[i].gridWord & 0xFFFFFF00u);
-            const float cell = std::bit_cast<float>((axes[i].gridWord & 255u) << 23);
-            const float base = (origin - ray.origin[i]) * ray.reciprocal[i];
-            const float scale = cell * ray.reciprocal[i];
-            // Near and far by the direction's sign, not as the lesser and the greater of both
-            // distances: the inverted box of an absent child must stay inverted.
-            const bool ascending = (ray.octant >> i & 1u) != 0;
-            const float nearPlane = float(byteOf(ascending ? axes[i].low : axes[i].high, slot));
-            const float farPlane = float(byteOf(ascending ? axes[i].high : axes[i].low, slot));
-            const float near = nearPlane * scale + (base - ray.slack[i]);
-            const float far = farPlane * scale + (base + ray.slack[i]);
-            enter = std::max(enter, std::bit_cast<int32_t>(near));
-            last = std::min(last, std::bit_cast<int32_t>(far));
+    const auto bytesOf = [](uint32_t first, uint32_t second) {
+        return std::bit_cast<Bytes>(std::array{first, second});
+    };
+    const Axis axes[3] = {{node.originAndExponentX, bytesOf(node.lowX0, node.lowX1),
+                           bytesOf(node.highX0, node.highX1)},
+                          {node.originAndExponentY, bytesOf(node.lowY0, node.lowY1),
+                           bytesOf(node.highY0, node.highY1)},
+                          {node.originAndExponentZ, bytesOf(node.lowZ0, node.lowZ1),
+                           bytesOf(node.highZ0, node.highZ1)}};
+    // Bit patterns, as the kernel compares them: those of floats that are not negative compare as
+    // the floats do, and negative ones are below them all. All children at once, axis by axis, so
+    // that compilers make vectors of them.
+    std::array<int32_t, gpu::WIDE_CHILDREN> enter{}, last;
+    last.fill(std::bit_cast<int32_t>(tMax));
+    for (int i = 0; i < 3; ++i) {
+        const float origin = std::bit_cast<float>(axes[i].gridWord & 0xFFFFFF00u);
+        const float cell = std::bit_cast<float>((axes[i].gridWord & 255u) << 23);
+        const float base = (origin - ray.origin[i]) * ray.reciprocal[i];
+        const float scale = cell * ray.reciprocal[i];
+        const float nearBase = base - ray.slack[i], farBase = base + ray.slack[i];
+        // Near and far by the direction's sign, not as the lesser and the greater of both
+        // distances: the inverted box of an absent child must stay inverted.
+        const bool ascending = (ray.octant >> i & 1u) != 0;
+        const Bytes& nearPlanes = ascending ? axes[i].low : axes[i].high;
+        const Bytes& farPlanes = ascending ? axes[i].high : axes[i].low;
+        for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
+            const float near = float(nearPlanes[slot]) * scale + nearBase;
+            const float far = float(farPlanes[slot]) * scale + farBase;
+            enter[slot] = std::max(enter[slot], std::bit_cast<int32_t>(near));
+            last[slot] = std::min(last[slot], std::bit_cast<int32_t>(far));
         }
-        if (enter <= std::bit_cast<int32_t>(std::bit_cast<float>(last) * kBoxSlack))
-            entered |= 1u << (slot ^ ray.octant);
     }
+    uint32_t entered = 0;
+    for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot)
+        if (enter[slot] <= std::bit_cast<int32_t>(std::bit_cast<float>(last[slot]) * kBoxSlack))
+            entered |= 1u << (slot ^ ray.octant);
     return entered;
 }
 

@@ -90,8 +90,9 @@ struct Plane {
     /// Where a ray goes through it out of the room, if it does.
     std::optional<glm::dvec2> passedBy(const Feeler& f) const {
         const double ahead = glm::dot(normal, glm::dvec3(f.direction));
+        if (!(ahead < 0)) return std::nullopt;
         const double height = glm::dot(normal, glm::dvec3(f.origin)) - at;
-        if (!(height > 0 && ahead < 0)) return std::nullopt;
+        if (!(height > 0)) return std::nullopt;
         return placeOf(glm::dvec3(f.origin) - height / ahead * glm::dvec3(f.direction));
     }
     bool holds(const Feeler& f, double thickness) const {
