@@ -6,6 +6,9 @@ target_include_directories(stromboli_settings INTERFACE ${PROJECT_SOURCE_DIR})
 # error bounds and the edge functions' antisymmetry no longer hold (docs/theory/numerics.md).
 target_compile_options(stromboli_settings INTERFACE -Wall -Wextra -Wshadow -Wconversion
                        -Wno-sign-conversion -ffp-contract=off)
+# Nothing reads errno or the flags of floating-point exceptions after a root or a comparison; for their
+# sake alone the compiler would make no vectors of loops with either.
+target_compile_options(stromboli_settings INTERFACE -fno-math-errno -fno-trapping-math)
 # All code may become part of a shared library (host/capi, python), which shows nothing but what it
 # says it shows. By an option and not by POSITION_INDEPENDENT_CODE, which is -fPIE for programs:
 # tests could not use precompiled headers that libraries made.

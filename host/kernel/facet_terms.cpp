@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace stromboli {
 
@@ -14,12 +15,9 @@ double square(double x) {
     return x * x;
 }
 
-/// Unpolarised reflectance of a plane between dielectrics. eta: index on the incident side over
-/// that on the other; cosTransmitted: out, 0 in total reflection.
-double fresnel(double cosine, double eta, double& cosTransmitted) {
-    const double cos2 = 1 - eta * eta * (1 - square(cosine));
-    cosTransmitted = std::sqrt(std::max(cos2, 0.0));
-    if (cos2 <= 0) return 1;
+/// Unpolarised reflectance of a plane between dielectrics where it is not total. eta: index on the
+/// incident side over that on the other.
+double fresnel(double cosine, double eta, double cosTransmitted) {
     const double s = (eta * cosine - cosTransmitted) / (eta * cosine + cosTransmitted);
     const double p = (cosine - eta * cosTransmitted) / (cosine + eta * cosTransmitted);
     return (s * s + p * p) / 2;
@@ -57,21 +55,43 @@ struct Microfacets {
     FacetMasking masking;
 
     double area(double cosine) const {
-        const double c = std::abs(cosine), sine = std::sqrt(std::max(1 - c * c, 0.0)) * alpha;
-        if (distribution == FacetDistribution::Ggx)
-            return (c + std::sqrt(square(sine) + square(c))) / 2;
-        if (sine == 0) return c;
-        return sine * beckmannArea(c / sine);
+        areas({&cosine, 1}, {&cosine, 1});
+        return cosine;
     }
+    /// Those seen from several directions. In loops that compilers make vectors of, but for the
+    /// look-up in a table.
+    void areas(std::span<const double> cosines, std::span<double> seen) const {
+        const size_t count = cosines.size();
+        if (distribution == FacetDistribution::Ggx) {
+            for (size_t i = 0; i < count; ++i) {
+                const double c = std::abs(cosines[i]);
+                const double sine = std::sqrt(std::max(1 - c * c, 0.0)) * alpha;
+                seen[i] = (c + std::sqrt(square(sine) + square(c))) / 2;
+            }
+            return;
+        }
+        std::array<double, kMostAreas> sines, quotients;
+        for (size_t i = 0; i < count; ++i) {
+            const double c = std::abs(cosines[i]);
+            sines[i] = std::sqrt(std::max(1 - c * c, 0.0)) * alpha;
+            quotients[i] = c / sines[i]; // infinite along the normal, which sees all of it
+            seen[i] = c;
+        }
+        for (size_t i = 0; i < count; ++i)
+            if (sines[i] != 0) seen[i] = sines[i] * beckmannArea(quotients[i]);
+    }
+    static constexpr size_t kMostAreas = 48;
+
     /// Squared tangent of normals such that a share u of the surface has smaller ones.
     double tangent2(double u) const {
         const double quantile =
             distribution == FacetDistribution::Ggx ? u / (1 - u) : -std::log1p(-u);
         return alpha * alpha * quantile;
     }
-    /// The share of the facets seen from one direction, of that area, that the other one meets.
-    double lit(double seen, double cosine, double otherCosine) const {
-        const double other = std::abs(otherCosine), otherArea = area(otherCosine);
+    /// The share of the facets seen from one direction, of that area, that the other one meets, of
+    /// which the area is given as well.
+    double lit(double seen, double cosine, double otherCosine, double otherArea) const {
+        const double other = std::abs(otherCosine);
         if (masking == FacetMasking::Separable) return other / otherArea;
         return other * seen / (other * seen + cosine * (otherArea - other));
     }
@@ -80,47 +100,62 @@ struct Microfacets {
 /// How many rings of normals are summed: integrals over views need fewer.
 constexpr int kCoarse = 64, kFine = 192;
 
-/// What becomes of light at a facet.
-enum class Way { Reflected, Transmitted };
+constexpr size_t kSectors = Microfacets::kMostAreas;
+using OfSectors = std::array<double, kSectors>;
 
-constexpr int kSectors = 48;
-
-/// Of the middles of the sectors of half a ring.
-std::array<double, kSectors> sectorCosines() {
-    std::array<double, kSectors> cosines;
-    for (int j = 0; j < kSectors; ++j)
-        cosines[size_t(j)] = std::cos(kPi * (j + 0.5) / kSectors);
+/// Of the middles of the sectors of half a ring, from the greatest.
+OfSectors sectorCosines() {
+    OfSectors cosines;
+    for (size_t j = 0; j < kSectors; ++j)
+        cosines[j] = std::cos(kPi * (double(j) + 0.5) / double(kSectors));
     return cosines;
 }
 
-/// The share of light from a direction that goes this way after one scattering.
+/// What becomes of light at a facet.
+enum class Way { Reflected, Transmitted };
+
+/// The share of light from a direction that goes this way after one scattering. eta: index on the
+/// side of that direction over that on the other.
 template <Way way>
 double scatteredBy(const Microfacets& facets, double eta, double cosine, int rings) {
-    static const std::array<double, kSectors> cosines = sectorCosines();
+    static const OfSectors cosines = sectorCosines();
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), area = facets.area(cosine);
     double sum = 0;
+    OfSectors cosO, otherZ, otherArea, shares;
     for (int i = 0; i < rings; ++i) {
         // A substitution that makes the tails of GGX smooth: visible normals have 1 / cos more of
         // them.
         const double left = 1 - (i + 0.5) / rings, ring = 2 * left / rings;
         const double z = 1 / std::sqrt(1 + facets.tangent2(1 - left * left));
         const double across = std::sqrt(1 - z * z);
-        for (const double sector : cosines) { // half of them: the others are their mirror images
-            const double x = across * sector;
-            const double cosO = sine * x + cosine * z;
-            if (cosO <= 0) continue;
-            double cosTransmitted = 0;
-            const double f = fresnel(std::min(cosO, 1.0), eta, cosTransmitted);
-            const double seen = ring / kSectors * cosO / (z * area);
+        // Half of the sectors: the others are their mirror images. They turn away from the
+        // direction one after the other.
+        size_t count = 0;
+        for (; count < kSectors; ++count) {
+            const double x = across * cosines[count];
+            cosO[count] = sine * x + cosine * z;
+            if (cosO[count] <= 0) break;
+        }
+        for (size_t j = 0; j < count; ++j) {
+            const double c = std::min(cosO[j], 1.0), cos2 = 1 - eta * eta * (1 - square(c));
+            const double cosTransmitted = std::sqrt(std::max(cos2, 0.0));
+            const double f = cos2 <= 0 ? 1 : fresnel(c, eta, cosTransmitted);
             if constexpr (way == Way::Reflected) {
-                const double reflectedZ = 2 * cosO * z - cosine;
-                if (reflectedZ > 0) sum += seen * f * facets.lit(area, cosine, reflectedZ);
+                otherZ[j] = 2 * cosO[j] * z - cosine;
+                shares[j] = otherZ[j] > 0 ? f : 0;
             } else {
-                const double transmittedZ = (eta * cosO - cosTransmitted) * z - eta * cosine;
-                if (f < 1 && transmittedZ < 0)
-                    sum += seen * (1 - f) * facets.lit(area, cosine, transmittedZ);
+                otherZ[j] = (eta * cosO[j] - cosTransmitted) * z - eta * cosine;
+                shares[j] = otherZ[j] < 0 ? 1 - f : 0;
             }
         }
+        facets.areas(std::span(otherZ).first(count), otherArea);
+        for (size_t j = 0; j < count; ++j) {
+            const double seen = ring / double(kSectors) * cosO[j] / (z * area);
+            const double lit = facets.lit(area, cosine, otherZ[j], otherArea[j]);
+            shares[j] = shares[j] > 0 ? seen * shares[j] * lit : 0;
+        }
+        for (size_t j = 0; j < count; ++j)
+            sum += shares[j];
     }
     return sum;
 }
