@@ -249,15 +249,18 @@ struct Room {
     double every = 4; ///< so many
 };
 
+/// Free rays that pass the least of openings.
+constexpr size_t kLeastThrough = 8;
+
 /// Those of the groups that gain; `worth` becomes what there is with them. passed: where Room::some
 /// pass the plane; every: Room::every.
 std::vector<Opening> worthwhile(std::vector<Opening> groups, std::span<const glm::dvec2> passed,
                                 double every, size_t most, Worth& worth) {
-    constexpr double kLeastThrough = 8, kLeastGain = 1.01;
+    constexpr double kLeastGain = 1.01;
     std::ranges::stable_sort(groups, std::greater(), &Opening::through);
     std::vector<Opening> chosen;
     for (Opening& o : groups) {
-        if (o.through < kLeastThrough || chosen.size() == most) break;
+        if (o.through < double(kLeastThrough) || chosen.size() == most) break;
         const auto count =
             std::ranges::count_if(passed, [&](const glm::dvec2& p) { return o.holds(p); });
         o.tried = std::max(every * double(count), o.through);
@@ -285,6 +288,7 @@ std::vector<Opening> bestOpenings(const Room& room, size_t most, Worth& worth) {
         std::vector<glm::dvec2> points = placesWhere(room.free, plane);
         std::erase_if(points,
                       [&](const glm::dvec2& p) { return p != glm::clamp(p, plane.lo, plane.hi); });
+        if (points.size() < kLeastThrough) return; // nothing in most planes
         const std::vector<glm::dvec2> passed = placesWhere(room.some, plane);
         for (const int reach : {1, 2, 4, 8}) {
             Worth of = worth;
