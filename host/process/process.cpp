@@ -65,6 +65,9 @@ void keepFreedMemory() {
     constexpr int kKept = 256 << 20; // bytes: the plan of a picture of two million pixels
     ::mallopt(M_TRIM_THRESHOLD, kKept);
     ::mallopt(M_MMAP_THRESHOLD, kKept);
+    // A thread's own arena asks the system for each 4 KiB more; that of all asks for this much.
+    ::mallopt(M_ARENA_MAX, 1);
+    ::mallopt(M_TOP_PAD, 1 << 20);
 #endif
 }
 

@@ -18,9 +18,10 @@ void useWideVectors();
 /// Has lavapipe work on so many threads. To be called as useWideVectors() is.
 void useDriverThreads(uint32_t threads);
 
-/// Freed memory is kept for what is asked for next: between two passes the plan takes and frees
-/// many times the picture, and to have its pages zeroed anew each time is 5 % of a render's CPU
-/// time.
+/// Freed memory is kept for what is asked for next, by whatever thread: between two passes the plan
+/// takes and frees many times the picture, and to have its pages zeroed anew each time is 5 % of a
+/// render's CPU time. The driver, which compiles kernels on a thread of its own, would otherwise ask
+/// the system for memory thousands of times.
 void keepFreedMemory();
 
 } // namespace stromboli::process
