@@ -17,38 +17,53 @@ namespace stromboli {
 
 // --- Alias tables --------------------------------------------------------------------------------
 
-std::vector<AliasColumn> buildAliasTable(std::span<const double> weights) {
+namespace {
+
+/// Calls set(index, column) for each index of the alias table, in any order. sum: of the weights.
+template <class Set>
+void makeColumns(std::span<const double> weights, double sum, Set set) {
     const size_t n = weights.size();
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<double> scaled(n);
-    std::vector<uint32_t> small, large;
-    small.reserve(n);
-    large.reserve(n);
+    // Two stacks in one array: what is below 1 from its beginning, all others from its end.
+    std::vector<uint32_t> stacks(n);
+    size_t small = 0, large = n;
     for (uint32_t i = 0; i < n; ++i) {
         scaled[i] = weights[i] * double(n) / sum;
-        (scaled[i] < 1 ? small : large).push_back(i);
+        const bool isSmall = scaled[i] < 1;
+        stacks[small] = stacks[large - 1] = i; // one of them stays: no branch is guessed wrongly
+        small += isSmall;
+        large -= !isSmall;
     }
-    std::vector<AliasColumn> table(n);
-    while (!small.empty() && !large.empty()) {
-        const uint32_t s = small.back(), l = large.back();
-        small.pop_back();
-        table[s] = {scaled[s], l};
+    while (small > 0 && large < n) {
+        const uint32_t s = stacks[--small], l = stacks[large];
+        set(s, AliasColumn{scaled[s], l});
         scaled[l] -= 1 - scaled[s];
         if (scaled[l] < 1) {
-            large.pop_back();
-            small.push_back(l);
+            ++large;
+            stacks[small++] = l;
         }
     }
     // What is left is 1 but for rounding. An index of weight 0 cannot be left here alone: its
     // column was filled while a larger one was at hand.
-    for (uint32_t i : small)
-        table[i] = {weights[i] > 0 ? 1.0 : 0.0, i};
-    for (uint32_t i : large)
-        table[i] = {1.0, i};
-    const auto heaviest =
-        uint32_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
-    for (uint32_t i = 0; i < n; ++i)
-        if (table[i].threshold == 0 && table[i].alias == i) table[i].alias = heaviest;
+    while (small > 0) {
+        const uint32_t i = stacks[--small];
+        if (weights[i] > 0) {
+            set(i, AliasColumn{1.0, i});
+        } else {
+            const auto heaviest = std::ranges::max_element(weights) - weights.begin();
+            set(i, AliasColumn{0.0, uint32_t(heaviest)});
+        }
+    }
+    for (; large < n; ++large)
+        set(stacks[large], AliasColumn{1.0, stacks[large]});
+}
+
+} // namespace
+
+std::vector<AliasColumn> buildAliasTable(std::span<const double> weights) {
+    std::vector<AliasColumn> table(weights.size());
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    makeColumns(weights, sum, [&](uint32_t i, const AliasColumn& column) { table[i] = column; });
     return table;
 }
 
@@ -142,7 +157,7 @@ struct TileSums {
 TileSums packTile(const Environment& environment, const Tiles& tiles, uint32_t tile,
                   std::span<const double> sines, std::span<Row> texels) {
     std::vector<double> weights;
-    std::vector<size_t> places;
+    std::vector<uint32_t> places;
     weights.reserve(size_t(1) << 2 * tiles.shift);
     places.reserve(size_t(1) << 2 * tiles.shift);
     TileSums sums;
@@ -152,18 +167,17 @@ TileSums packTile(const Environment& environment, const Tiles& tiles, uint32_t t
         texels[place] = std::bit_cast<Row>(texel);
         const double light = luminance(decodeRadiance(texel)), sine = sines[y];
         weights.push_back(light * sine);
-        places.push_back(place);
+        places.push_back(uint32_t(place));
         sums.light += weights.back();
         sums.squares += light * light * sine;
     });
     if (!(sums.light > 0)) return {}; // no sample comes here
-    const std::vector<AliasColumn> columns = buildAliasTable(weights);
-    for (size_t i = 0; i < places.size(); ++i) {
+    makeColumns(weights, sums.light, [&](uint32_t i, const AliasColumn& column) {
         auto texel = std::bit_cast<gpu::EnvironmentTexel>(texels[places[i]]);
-        texel.threshold = steppedThreshold(columns[i].threshold);
-        texel.alias = uint32_t(places[columns[i].alias]);
+        texel.threshold = steppedThreshold(column.threshold);
+        texel.alias = places[column.alias];
         texels[places[i]] = std::bit_cast<Row>(texel);
-    }
+    });
     return sums;
 }
 
