@@ -40,7 +40,8 @@ class MeshMaker {
   public:
     explicit MeshMaker(const FileLists& lists)
         : lists_(lists), positions_(lists.mesh.positions.size()),
-          normals_(lists.mesh.normals.size() + lists.smoothNormals.size()) {}
+          normals_(lists.mesh.normals.size() + lists.smoothNormals.size()),
+          texcoords_(lists.colors.empty() ? lists.texcoords.size() : 0) {}
 
     build::Mesh make(const std::map<std::optional<uint32_t>, build::MeshPart>& parts) {
         build::Mesh mesh;
@@ -61,6 +62,7 @@ class MeshMaker {
                                        : lists_.smoothNormals[n - lists_.mesh.normals.size()]);
         positions_.clear();
         normals_.clear();
+        texcoords_.clear();
         attributes_.clear();
         return mesh;
     }
@@ -84,9 +86,15 @@ class MeshMaker {
         const bool hasUv = corner.attributes != kNoAttributes;
         const bool hasColor = !lists_.colors.empty();
         if (!hasUv && !hasColor) return kNoAttributes;
-        const uint64_t key = uint64_t(corner.attributes) << 32 | (hasColor ? corner.position : 0);
-        const auto [found, isNew] = attributes_.try_emplace(key, uint32_t(mesh.attributes.size()));
-        if (isNew) {
+        const auto next = uint32_t(mesh.attributes.size());
+        uint32_t number = 0;
+        if (hasColor) { // few files have any
+            const uint64_t key = uint64_t(corner.attributes) << 32 | corner.position;
+            number = attributes_.try_emplace(key, next).first->second;
+        } else {
+            number = texcoords_.of(corner.attributes);
+        }
+        if (number == next) {
             VertexAttributes& a = mesh.attributes.emplace_back();
             // On the renderer's pictures v grows downwards.
             if (hasUv) {
@@ -95,12 +103,13 @@ class MeshMaker {
             }
             if (hasColor) a.color = glm::vec4(lists_.colors[corner.position], 1);
         }
-        return found->second;
+        return number;
     }
 
     const FileLists& lists_;
     Renumbering positions_, normals_;
-    std::unordered_map<uint64_t, uint32_t> attributes_;
+    Renumbering texcoords_;                             ///< of files without colours,
+    std::unordered_map<uint64_t, uint32_t> attributes_; ///< and of those with
 };
 
 bool lackTexcoords(const build::MeshPart& part) {
