@@ -36,9 +36,13 @@ TEST_F(CachedRuns, ColdAndWarmGiveTheSameBytes) {
     const std::string cold = picture(here());
     EXPECT_FALSE(cold.empty());
     EXPECT_EQ(picture(here()), cold);
-    std::error_code none; // a driver that gives nothing out leaves no folder
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_.file("cache"), none))
-        fs::resize_file(entry, fs::file_size(entry) / 2);
+    int kept = 0; // the kernel's module, and what the driver gives out
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.file("cache")))
+        if (entry.is_regular_file()) {
+            fs::resize_file(entry, fs::file_size(entry) / 2);
+            ++kept;
+        }
+    EXPECT_GE(kept, 1);
     EXPECT_EQ(picture(here()), cold);
 }
 
