@@ -5,6 +5,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stromboli {
@@ -28,6 +29,18 @@ uint32_t texelIndex(int64_t i, Wrap wrap, uint32_t n) {
     return uint32_t(std::clamp<int64_t>(i, 0, int64_t(n) - 1)); // mirrored, the edge meets itself
 }
 
+/// Numbers of bytes. What a picture emits in all is summed over millions of texels, and a power for
+/// each of their channels took most of the time.
+struct BytesDecoded {
+    std::array<double, 256> fraction, light;
+    BytesDecoded() {
+        for (size_t byte = 0; byte < 256; ++byte) {
+            fraction[byte] = double(byte) / 255;
+            light[byte] = srgbToLinear(fraction[byte]);
+        }
+    }
+};
+
 } // namespace
 
 glm::dvec4 texelAt(const TextureImage& image, bool srgb, uint32_t x, uint32_t y) {
@@ -37,12 +50,11 @@ glm::dvec4 texelAt(const TextureImage& image, bool srgb, uint32_t x, uint32_t y)
                         second = glm::unpackHalf2x16(image.words[2 * index + 1]);
         return {first.x, first.y, second.x, second.y};
     }
-    glm::dvec4 texel(0.0);
-    for (int c = 0; c < 4; ++c) {
-        const double fraction = double(image.words[index] >> 8 * c & 0xFF) / 255;
-        texel[c] = srgb && c < 3 ? srgbToLinear(fraction) : fraction;
-    }
-    return texel;
+    static const BytesDecoded decoded;
+    const std::array<double, 256>& color = srgb ? decoded.light : decoded.fraction;
+    const uint32_t word = image.words[index];
+    return {color[word & 0xFF], color[word >> 8 & 0xFF], color[word >> 16 & 0xFF],
+            decoded.fraction[word >> 24]};
 }
 
 PointAttributes attributesAt(const Scene& scene, uint32_t triangle, double b1, double b2) {
