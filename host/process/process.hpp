@@ -20,7 +20,7 @@ void useDriverThreads(uint32_t threads);
 
 /// Freed memory is kept for what is asked for next, by whatever thread: between two passes the plan
 /// takes and frees many times the picture, and to have its pages zeroed anew each time is 5 % of a
-/// render's CPU time. The driver, which compiles kernels on a thread of its own, would otherwise ask
+/// render's CPU time. The driver compiles kernels on a thread of its own, which would otherwise ask
 /// the system for memory thousands of times.
 void keepFreedMemory();
 

@@ -155,18 +155,9 @@ std::vector<DeviceDescription> listDevices(const Instance& instance) {
     return devices;
 }
 
-namespace {
-
-SpecialisedModules modulesIn(const std::optional<BlobCache>& cache) {
-    if (!cache) return SpecialisedModules(std::nullopt);
-    return SpecialisedModules(cache->within("kernels", SpecialisedModules::kMostKept));
-}
-
-} // namespace
-
 Device::Device(const Instance&, const DeviceDescription& description,
                std::optional<BlobCache> cache, DeviceUse use)
-    : description_(description), use_(use), modules_(modulesIn(cache)) {
+    : description_(description), use_(use), modules_(cache) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = uint32_t(description.queueFamily),

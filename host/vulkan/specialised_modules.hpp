@@ -15,8 +15,10 @@ namespace stromboli::vulkan {
 /// specialiser.
 class SpecialisedModules {
   public:
-    /// `kept`: where to keep them; none: nowhere.
-    explicit SpecialisedModules(std::optional<BlobCache> kept) : kept_(std::move(kept)) {}
+    /// They are kept in a folder of their own within the cache; none: nowhere.
+    explicit SpecialisedModules(const std::optional<BlobCache>& cache) {
+        if (cache) kept_ = cache->within("kernels", kMostKept);
+    }
 
     /// As spirv::specialise(), by which it is made if it was not kept.
     std::optional<std::vector<uint32_t>> get(std::span<const uint32_t> module,
