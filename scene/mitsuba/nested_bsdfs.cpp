@@ -69,10 +69,11 @@ double meanOf(const glm::dvec3& color) {
     return std::clamp((color.x + color.y + color.z) / 3, 0.0, 1.0);
 }
 
-/// How Mitsuba shades what a map has turned.
+/// How Mitsuba shades what a map has turned. Mitsuba 0.x has neither rule: what a turned normal
+/// puts on the other side of the surface is black, and nothing else is darker.
 void setReliefRules(Surface& surface, const Plugin& plugin) {
-    const bool flips = plugin.flag("flip_invalid_normals").value_or(true);
-    const bool shadows = plugin.flag("use_shadowing_function").value_or(true);
+    const bool flips = plugin.flag("flip_invalid_normals").value_or(!plugin.isOld);
+    const bool shadows = plugin.flag("use_shadowing_function").value_or(!plugin.isOld);
     for (Surface* each = &surface; each; each = each->other.get()) {
         each->material.reliefRule = flips ? ReliefRule::Flip : ReliefRule::Blacken;
         each->material.reliefShadows = shadows;
