@@ -174,7 +174,7 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
         const glm::dvec3 to = shape.vector("p1").value_or(glm::dvec3(0, 0, 1));
         const double radius = shape.number("radius", 0).value_or(1);
         if (!build::unit(to - from) || !(radius > 0)) shape.fail("has no length or no radius");
-        return cylinderMesh(from, to, radius);
+        return cylinderMesh(from, to, radius, shape.isOld);
     }
     shape.fail(fmt::format(
         "'{}' is no shape that is read, expected obj, ply, serialized, rectangle, cube, "

@@ -17,6 +17,21 @@ glm::dvec2 direction(double share) {
     return {std::cos(2 * kPi * turn), std::sin(2 * kPi * turn)};
 }
 
+/// Where the texture coordinates about an axis begin in Mitsuba 3: Duff et al., "Building an
+/// Orthonormal Basis, Revisited" (JCGT 2017).
+glm::dvec3 across(const glm::dvec3& axis) {
+    const double sign = std::copysign(1, axis.z), a = -1 / (sign + axis.z);
+    return {1 + sign * axis.x * axis.x * a, sign * axis.x * axis.y * a, -sign * axis.x};
+}
+
+/// Where they begin in Mitsuba 0.x: across a second axis without the smaller one of x and y.
+glm::dvec3 oldAcross(const glm::dvec3& axis) {
+    const bool isAlongX = std::abs(axis.x) > std::abs(axis.y);
+    const glm::dvec3 second =
+        isAlongX ? glm::dvec3(axis.z, 0, -axis.x) : glm::dvec3(0, axis.z, -axis.y);
+    return glm::cross(glm::normalize(second), axis);
+}
+
 } // namespace
 
 build::Mesh rectangleMesh() {
@@ -65,12 +80,9 @@ build::Mesh diskMesh() {
     return mesh;
 }
 
-build::Mesh cylinderMesh(const glm::dvec3& from, const glm::dvec3& to, double radius) {
-    // Mitsuba's frame, by which texture coordinates begin: Duff et al., "Building an Orthonormal
-    // Basis, Revisited" (JCGT 2017).
+build::Mesh cylinderMesh(const glm::dvec3& from, const glm::dvec3& to, double radius, bool isOld) {
     const glm::dvec3 axis = glm::normalize(to - from);
-    const double sign = std::copysign(1, axis.z), a = -1 / (sign + axis.z);
-    const glm::dvec3 x(1 + sign * axis.x * axis.x * a, sign * axis.x * axis.y * a, -sign * axis.x);
+    const glm::dvec3 x = isOld ? oldAcross(axis) : across(axis);
     const glm::dvec3 y = glm::cross(axis, x);
     return build::gridMesh(kSides, 1, [&](double s, double t) {
         const glm::dvec2 d = direction(s);

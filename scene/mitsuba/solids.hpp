@@ -11,6 +11,7 @@ inline constexpr uint32_t kSides = build::kSphereSides;
 build::Mesh rectangleMesh(); ///< [-1, 1]^2 in the xy plane, facing z
 build::Mesh cubeMesh();      ///< [-1, 1]^3
 build::Mesh diskMesh();      ///< of radius 1 in the xy plane, facing z
-build::Mesh cylinderMesh(const glm::dvec3& from, const glm::dvec3& to, double radius); ///< open
+/// Without ends. Mitsuba 0.x (`isOld`) has other coordinates about an axis that is neither y nor z.
+build::Mesh cylinderMesh(const glm::dvec3& from, const glm::dvec3& to, double radius, bool isOld);
 
 } // namespace stromboli::mitsuba

@@ -1,6 +1,7 @@
 // Shapes of Mitsuba 0.x, and what they have of old.
 
 #include "scene/mitsuba/smooth_normals.hpp"
+#include "scene/mitsuba/solids.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <fmt/format.h>
@@ -222,6 +223,15 @@ TEST(MitsubaOldShapes, VertexColors) {
                                  "<texture type=\"vertexcolors\" name=\"reflectance\"/></bsdf>");
     ASSERT_EQ(scene.attributeCorners.size(), 1u);
     EXPECT_EQ(scene.attributes[scene.attributeCorners[0][1]].color, glm::vec4(0, 1, 0, 1));
+}
+
+TEST(MitsubaOldShapes, CylindersBeginAcrossTheirOwnAxis) {
+    const build::Mesh lying = mitsuba::cylinderMesh({0, 0, 0}, {1, 0, 0}, 1, true);
+    EXPECT_NEAR(glm::distance(lying.positions.at(0), glm::dvec3(0, -1, 0)), 0, 1e-12);
+    const build::Mesh upright = mitsuba::cylinderMesh({0, 0, 0}, {0, 1, 0}, 1, true);
+    EXPECT_NEAR(glm::distance(upright.positions.at(0), glm::dvec3(1, 0, 0)), 0, 1e-12);
+    const Scene scene = loadOld("<shape type=\"cylinder\"><point name=\"p1\" x=\"1\"/></shape>");
+    EXPECT_NEAR(glm::distance(glm::dvec3(scene.positions.at(0)), glm::dvec3(0, -1, 0)), 0, 1e-6);
 }
 
 } // namespace

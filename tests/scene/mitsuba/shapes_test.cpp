@@ -97,7 +97,7 @@ TEST(MitsubaShapes, CubesHaveMitsubasTextureCoordinates) {
 /// Round the axis from where its frame begins (Duff et al. 2017), as Mitsuba has it.
 TEST(MitsubaShapes, CylindersBeginWhereMitsubasDo) {
     const glm::dvec3 from(-1, 0.6, 0), axis = glm::normalize(glm::dvec3(2, 0.6, 0));
-    const build::Mesh cylinder = mitsuba::cylinderMesh(from, {1, 1.2, 0}, 0.5);
+    const build::Mesh cylinder = mitsuba::cylinderMesh(from, {1, 1.2, 0}, 0.5, false);
     const glm::dvec3 first = (cylinder.positions.at(0) - from) / 0.5;
     EXPECT_EQ(cylinder.attributes.at(0).uv[0], glm::vec2(0));
     EXPECT_NEAR(first.x, 1 - axis.x * axis.x, 1e-12);
