@@ -50,8 +50,9 @@ FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool w
 }
 
 FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
-                     std::string_view attribute) {
+                     std::string_view attribute, std::optional<bool> areSrgb) {
     PlyAttribute colors;
+    colors.areSrgb = areSrgb;
     constexpr std::string_view kOfFaces = "face_", kOfVertices = "vertex_";
     colors.isOfFaces = attribute.starts_with(kOfFaces);
     if (colors.isOfFaces) colors.name = attribute.substr(kOfFaces.size());

@@ -4,6 +4,7 @@
 #include "scene/mitsuba/context.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 namespace stromboli::mitsuba {
@@ -26,8 +27,8 @@ struct FileMesh {
 
 FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook);
 /// attribute: what the colours of corners are, as Mitsuba names it: vertex_color, face_color, ...;
-/// empty: vertex_color.
+/// empty: vertex_color. areSrgb: as PlyAttribute has it.
 FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
-                     std::string_view attribute);
+                     std::string_view attribute, std::optional<bool> areSrgb);
 
 } // namespace stromboli::mitsuba

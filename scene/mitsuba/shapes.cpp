@@ -241,9 +241,12 @@ const FileMesh& Shapes::read(const Plugin& shape, const std::string& attribute) 
     const bool isSerialized = shape.type == "serialized";
     const int64_t index = isSerialized ? shape.integer("shape_index").value_or(0) : 0;
     if (index < 0) shape.fail("shape_index", "is less than 0");
+    // Mitsuba 0.x decodes colours of vertices, floats too, unless it is told not to.
+    const std::optional<bool> areSrgb =
+        shape.isOld ? std::optional(shape.flag("srgb").value_or(true)) : std::nullopt;
     const bool wantsLook = shape.type == "obj" && usesOwnMaterials(shape);
     const auto [found, isNew] =
-        files_.try_emplace(std::tuple(file.string(), index, attribute, wantsLook));
+        files_.try_emplace(std::tuple(file.string(), index, attribute, wantsLook, areSrgb));
     std::optional<FileMesh>& mesh = found->second;
     if (!isNew && !mesh) shape.fail("names a file that cannot be read, as was said before");
     if (isNew && isSerialized)
@@ -252,7 +255,7 @@ const FileMesh& Shapes::read(const Plugin& shape, const std::string& attribute) 
     else if (isNew && shape.type == "obj")
         mesh = readObjMesh(context_, file, wantsLook);
     else if (isNew)
-        mesh = readPlyMesh(context_, file, attribute);
+        mesh = readPlyMesh(context_, file, attribute, areSrgb);
     return *mesh;
 }
 

@@ -48,9 +48,11 @@ class Shapes {
 
     Context& context_;
     Materials materials_;
-    /// By file, index, mesh attribute and whether materials are wanted; nothing: the file cannot be
-    /// read.
-    std::map<std::tuple<std::string, int64_t, std::string, bool>, std::optional<FileMesh>> files_;
+    /// By file, index, mesh attribute, whether materials are wanted and whether colours of vertices
+    /// are sRGB (PlyAttribute); nothing: the file cannot be read.
+    std::map<std::tuple<std::string, int64_t, std::string, bool, std::optional<bool>>,
+             std::optional<FileMesh>>
+        files_;
     std::map<const Plugin*, std::vector<Part>> groups_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,8 @@ namespace stromboli {
 struct PlyAttribute {
     std::string name = "color";
     bool isOfFaces = false;
+    /// Whether colours of vertices are sRGB; without a value whole numbers are, and floats are not.
+    std::optional<bool> areSrgb = std::nullopt;
 };
 
 /// Reads a PLY file, ASCII or binary; docs/guide/obj_ply.md says what of it. Throws SceneError with

@@ -62,8 +62,8 @@ void PlyReader::read() {
 void PlyReader::readElements(const Element& element) {
     body_.begin(element);
     if (element.name == "vertex")
-        vertices_ =
-            readVertices(element, body_, builder_, colors_.isOfFaces ? "color" : colors_.name);
+        vertices_ = readVertices(element, body_, builder_,
+                                 colors_.isOfFaces ? "color" : colors_.name, colors_.areSrgb);
     else if (element.name == "face" || element.name == "tristrips")
         readFaces(element);
     else

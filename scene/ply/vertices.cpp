@@ -78,7 +78,7 @@ std::optional<int> channelNamed(const Property& property, const std::string& nam
 class VertexReader {
   public:
     VertexReader(const Element& element, Body& body, build::SceneBuilder& builder,
-                 const std::string& colors)
+                 const std::string& colors, std::optional<bool> areSrgb)
         : element_(element), body_(body), builder_(builder), isColor_(colors == "color") {
         for (const Property& property : element.properties) {
             Role role = roleOf(property);
@@ -96,6 +96,8 @@ class VertexReader {
             if (role >= Red && role <= Blue) colorScale_ = fullScale(property.type);
             if (role == Alpha) alphaScale_ = fullScale(property.type);
         }
+        isSaid_ = areSrgb.has_value();
+        isLinear_ = !areSrgb.value_or(colorScale_ != 1);
         if (!has_[X] || !has_[Y] || !has_[Z]) body.fail("vertices have no x, y and z");
         hasNormals_ = has_[Nx] && has_[Ny] && has_[Nz];
         hasUv_ = has_[U] && has_[V];
@@ -104,8 +106,8 @@ class VertexReader {
     }
 
     Vertices read() {
-        if (hasColors_ && isColor_)
-            builder_.report().assume(colorScale_ == 1
+        if (hasColors_ && isColor_ && !isSaid_)
+            builder_.report().assume(isLinear_
                                          ? "colours of vertices are linear, as floats are"
                                          : "colours of vertices are sRGB, as whole numbers are");
         found_.hasColors = hasColors_;
@@ -145,7 +147,6 @@ class VertexReader {
     }
 
     glm::vec4 colorOf() {
-        const bool isLinear = colorScale_ == 1;
         glm::vec4 color(1);
         if (!isColor_) {
             for (int i = 0; i < 3; ++i)
@@ -154,7 +155,7 @@ class VertexReader {
         }
         for (int i = 0; i < 3; ++i) {
             const double value = std::max(double(finite(values_[Red + i])), 0.0) / colorScale_;
-            color[i] = float(isLinear ? value : srgbToLinear(std::min(value, 1.0)));
+            color[i] = float(isLinear_ ? value : srgbToLinear(std::min(value, 1.0)));
         }
         if (has_[Alpha])
             color.w = float(std::clamp(finite(values_[Alpha]) / alphaScale_, 0.0, 1.0));
@@ -175,7 +176,8 @@ class VertexReader {
     std::vector<Role> roles_; ///< one for each property
     std::array<bool, kRoleCount> has_{};
     std::array<double, kRoleCount> values_{};
-    bool isColor_; ///< what colours are read from, and no other attribute
+    bool isLinear_ = false, isSaid_ = false; ///< of colours; by whoever reads the file
+    bool isColor_;                           ///< what colours are read from, and no other attribute
     double colorScale_ = 1, alphaScale_ = 1;
     bool hasNormals_ = false, hasUv_ = false, hasColors_ = false;
 };
@@ -206,8 +208,8 @@ double fullScale(ScalarType type) {
 }
 
 Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
-                      const std::string& colors) {
-    return VertexReader(element, body, builder, colors).read();
+                      const std::string& colors, std::optional<bool> areSrgb) {
+    return VertexReader(element, body, builder, colors, areSrgb).read();
 }
 
 } // namespace stromboli::ply

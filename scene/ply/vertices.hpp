@@ -25,8 +25,8 @@ double fullScale(ScalarType type);
 
 /// Reads all vertices, which `body` is at the beginning of. Throws SceneError if they have no x, y
 /// and z. Those that are not finite are kept: many files have vertices that no face uses.
-/// colors: the name of the attribute that their colours are.
+/// colors: the name of the attribute that their colours are; areSrgb: as PlyAttribute has it.
 Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
-                      const std::string& colors);
+                      const std::string& colors, std::optional<bool> areSrgb);
 
 } // namespace stromboli::ply

@@ -2,6 +2,7 @@
 
 #include "scene/mitsuba/smooth_normals.hpp"
 #include "scene/mitsuba/solids.hpp"
+#include "scene/model/srgb.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <fmt/format.h>
@@ -223,6 +224,28 @@ TEST(MitsubaOldShapes, VertexColors) {
                                  "<texture type=\"vertexcolors\" name=\"reflectance\"/></bsdf>");
     ASSERT_EQ(scene.attributeCorners.size(), 1u);
     EXPECT_EQ(scene.attributes[scene.attributeCorners[0][1]].color, glm::vec4(0, 1, 0, 1));
+}
+
+/// Colours of vertices are sRGB unless the shape says otherwise, whole numbers or not.
+TEST(MitsubaOldShapes, VertexColorsAreDecoded) {
+    for (const auto& [type, value, scale] : {std::tuple("uchar", 51, 255.0), {"float", 1, 1.0}}) {
+        writeFile("decoded_old.ply",
+                  fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nproperty {0} red\n"
+                              "property {0} green\nproperty {0} blue\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n"
+                              "0 0 0 {1} 0 0\n1 0 0 {1} 0 0\n0 1 0 {1} 0 0\n3 0 1 2\n",
+                              type, type == std::string("float") ? "0.2" : std::to_string(value)));
+        const auto red = [](const std::string& inside) {
+            const Scene scene =
+                loadFile("ply", "decoded_old.ply",
+                         inside + "<bsdf type=\"diffuse\"><texture type=\"vertexcolors\" "
+                                  "name=\"reflectance\"/></bsdf>");
+            return scene.attributes[scene.attributeCorners.at(0)[1]].color.x;
+        };
+        EXPECT_NEAR(red(""), srgbToLinear(0.2), 1e-6) << type;
+        EXPECT_NEAR(red("<boolean name=\"srgb\" value=\"false\"/>"), 0.2, 1e-6) << type;
+    }
 }
 
 TEST(MitsubaOldShapes, CylindersBeginAcrossTheirOwnAxis) {
