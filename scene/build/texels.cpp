@@ -79,6 +79,38 @@ TextureImage rearranged(const TextureImage& image, bool srgb, Layout layout) {
     return result;
 }
 
+TextureImage ofMeans(const TextureImage& image, bool srgb) {
+    TextureImage result{image.name, image.width, image.height, TexelFormat::RgbaHalf, {}};
+    const size_t count = size_t(image.width) * image.height;
+    result.words.reserve(2 * count);
+    for (size_t i = 0; i < count; ++i) {
+        const glm::dvec3 color = colorAt(image, i, srgb);
+        append(result.words, glm::dvec4(glm::dvec3((color.x + color.y + color.z) / 3), 1));
+    }
+    return result;
+}
+
+TextureImage decodedBy(const TextureImage& image, double power) {
+    TextureImage result{image.name, image.width, image.height, TexelFormat::RgbaHalf, {}};
+    const size_t count = size_t(image.width) * image.height;
+    result.words.reserve(2 * count);
+    for (size_t i = 0; i < count; ++i)
+        append(result.words, glm::dvec4(glm::pow(colorAt(image, i, false), glm::dvec3(power)), 1));
+    return result;
+}
+
+bool isColored(const TextureImage& image, bool srgb) {
+    constexpr double kRounding = 1e-3; // of halfs
+    const size_t count = size_t(image.width) * image.height;
+    for (size_t i = 0; i < count; ++i) {
+        const glm::dvec3 color = colorAt(image, i, srgb);
+        const double least = std::min({color.x, color.y, color.z});
+        const double most = std::max({color.x, color.y, color.z});
+        if (most - least > kRounding * most) return true;
+    }
+    return false;
+}
+
 bool isGrey(const TextureImage& image) {
     return image.format == TexelFormat::Rgba8 &&
            std::ranges::all_of(image.words, [](uint32_t word) {

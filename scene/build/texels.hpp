@@ -20,6 +20,12 @@ void appendTexel(std::vector<uint32_t>& words, const glm::dvec3& value, Layout l
 glm::dvec3 colorAt(const TextureImage& image, size_t i, bool srgb);
 /// Each texel with its value where the layout says.
 TextureImage rearranged(const TextureImage& image, bool srgb, Layout layout);
+/// Each texel with the mean of its channels.
+TextureImage ofMeans(const TextureImage& image, bool srgb);
+/// Of 8 bits, each number raised to a power, as linear light.
+TextureImage decodedBy(const TextureImage& image, double power);
+/// Channels of a texel differ.
+bool isColored(const TextureImage& image, bool srgb);
 /// It has no colours.
 bool isGrey(const TextureImage& image);
 /// Drops the alpha, as Mitsuba does.

@@ -2,6 +2,7 @@
 
 #include "scene/build/vectors.hpp"
 #include "scene/images/float_image.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -61,6 +62,22 @@ images::FloatImage withRowsAtPoles(const images::FloatImage& image) {
     return result;
 }
 
+/// Mitsuba 0.x may state by which power numbers of a picture are decoded, 1 where they are linear.
+/// By now they are light, as sRGB has it.
+void decodeAsStated(const Plugin& emitter, const std::filesystem::path& file,
+                    images::FloatImage& image) {
+    const double gamma = emitter.number("gamma").value_or(0);
+    const bool isOfFloats = file.extension() == ".exr" || file.extension() == ".hdr" ||
+                            file.extension() == ".rgbe" || file.extension() == ".pfm";
+    if (gamma <= 0 || (isOfFloats && gamma == 1)) return;
+    if (!image.isEightBit)
+        return emitter.replaceParameter("gamma", build::Shortfall::Model,
+                                        "is stated for a picture of more than 8 bits a channel");
+    for (glm::vec3& texel : image.texels)
+        for (const int channel : {0, 1, 2})
+            texel[channel] = float(std::pow(linearToSrgb(double(texel[channel])), gamma));
+}
+
 } // namespace
 
 bool isEnvironment(const Plugin& emitter) {
@@ -83,6 +100,7 @@ void setEnvironmentMap(Context& context, const Plugin& emitter) {
     images::FloatImage image = images::readFloatImage(file);
     for (const images::PictureFault& fault : image.faults)
         emitter.replace(fault.kind, fmt::format("{}: {}", file.string(), fault.problem));
+    decodeAsStated(emitter, file, image);
     // In Mitsuba 0.x the rows are where they are here.
     if (!emitter.isOld) image = withRowsAtPoles(image);
     bool isMirrored = false;
@@ -99,7 +117,7 @@ void setEnvironmentMap(Context& context, const Plugin& emitter) {
     environment.strength = float(emitter.number("scale", 0).value_or(1));
     // Mitsuba's picture begins with -z at its left edge, ours has it in the middle.
     environment.rotation = glm::pi<float>();
-    for (const char* unused : {"mis_compensation", "gamma", "cache"})
+    for (const char* unused : {"mis_compensation", "cache"})
         emitter.skip(unused);
     context.builder.setEnvironment(std::move(environment));
 }

@@ -205,7 +205,11 @@ Surface mask(Context& context, Textures& textures, const Plugin& plugin) {
     const glm::dvec3 otherwise(plugin.child("opacity") ? 1.0 : 0.5);
     const Shade opacity =
         textures.shade(plugin, "opacity", ColorOf::Reflectance, otherwise, Layout::Red);
-    m.opacity = float(opacityOf(m) * meanOf(opacity.color));
+    const glm::dvec3& color = opacity.color;
+    if (opacity.isColored || color.x != color.y || color.y != color.z)
+        plugin.replaceParameter("opacity", build::Shortfall::Model,
+                                "differs between red, green and blue, expected one number");
+    m.opacity = float(opacityOf(m) * meanOf(color));
     m.alphaMode = AlphaMode::Blend;
     if (opacity.texture) addOpacity(plugin, m, *opacity.texture, false);
     plugin.requireAllRead();

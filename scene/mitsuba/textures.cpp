@@ -40,14 +40,19 @@ bool isNearest(const Plugin& texture) {
 /// Whether the picture's numbers are linear as they are.
 bool isRaw(const Plugin& texture) {
     const bool raw = texture.flag("raw").value_or(false);
-    const double gamma = texture.number("gamma").value_or(0);
-    if (gamma == 1) return true;
-    const bool isUsual = gamma <= 0 || (gamma > 2.15 && gamma < 2.45);
-    if (!isUsual)
-        texture.replace(build::Shortfall::Model,
-                        fmt::format("'gamma' is {}, expected 1 or 2.2", gamma),
-                        "sRGB, where the picture has 8 bits");
-    return raw;
+    return raw || texture.number("gamma").value_or(0) == 1;
+}
+
+/// The power that decodes the picture's numbers; 0: they are linear or sRGB.
+double powerOf(const Plugin& texture) {
+    const double gamma = isRaw(texture) ? 0 : texture.number("gamma").value_or(0);
+    return std::max(gamma, 0.0);
+}
+
+/// Whether it holds one number for each texel, which is no height. Mitsuba 0.x takes the mean of
+/// the channels for that, Mitsuba 3 the luminance.
+bool isOfMeans(const Plugin& texture, Layout layout) {
+    return texture.isOld && layout != Layout::Color && layout != Layout::Grey;
 }
 
 /// Looks up by `to_uv` times the surface's coordinates; those of Mitsuba 0.x are scaled and then
@@ -225,13 +230,13 @@ std::optional<Shade> Textures::bitmap(const Plugin& plugin, Layout layout) {
                                 fmt::format("is '{}', expected r, g, b or a", channel));
     const bool raw = isRaw(plugin) || place == 3; // alpha is linear
     Texture texture;
-    const std::optional<uint32_t> shownImage =
-        image(plugin, raw, layout, place ? channel.front() : '\0');
+    const auto [shownImage, isColored] = image(plugin, raw, layout, place ? channel.front() : '\0');
     const Wrap wrap = wrapOf(plugin, "wrap_mode", Wrap::Repeat);
     texture.wrapU = wrapOf(plugin, "wrap_mode_u", wrap);
     texture.wrapV = wrapOf(plugin, "wrap_mode_v", wrap);
     texture.nearest = isNearest(plugin);
-    texture.srgb = !raw && (layout == Layout::Color || layout == Layout::Grey);
+    texture.srgb =
+        !raw && powerOf(plugin) == 0 && (layout == Layout::Color || layout == Layout::Grey);
     TextureUse use;
     applyTransform(plugin, use);
     for (const char* unused : {"format", "accel", "max_anisotropy", "cache"})
@@ -240,28 +245,43 @@ std::optional<Shade> Textures::bitmap(const Plugin& plugin, Layout layout) {
     if (!shownImage) return std::nullopt;
     texture.image = *shownImage;
     use.texture = context_.builder.addTexture(texture);
-    return Shade{glm::dvec3(1), use, {}};
+    return Shade{glm::dvec3(1), use, {}, isColored};
 }
 
-std::optional<uint32_t> Textures::image(const Plugin& plugin, bool raw, Layout layout,
-                                        char channel) {
+Textures::Read Textures::image(const Plugin& plugin, bool raw, Layout layout, char channel) {
     const std::filesystem::path file = context_.document.file(plugin, "filename");
-    const auto key = std::tuple(file.string(), raw, layout, channel);
+    const double power = powerOf(plugin);
+    const bool ofMeans = isOfMeans(plugin, layout);
+    const auto key = std::tuple(file.string(), raw, layout, channel, power, ofMeans);
     if (const auto found = images_.find(key); found != images_.end()) return found->second;
     const std::string name = file.string();
     const std::string bytes = build::readFile(file);
     std::optional<TextureImage> image = images::loadTexture(
         [&] { return std::string_view(bytes); }, name, !raw, plugin.place, context_.report());
-    if (!image) return images_[key] = std::nullopt;
+    if (!image) return images_[key] = Read{};
+    bool srgb = !raw && image->format == TexelFormat::Rgba8;
+    if (power > 0 && !srgb)
+        plugin.replaceParameter("gamma", build::Shortfall::Model,
+                                "is stated for a picture of more than 8 bits a channel");
     if (channel != '\0') build::spreadChannel(*image, *placeOfChannel(channel));
     const uint32_t largest = context_.builder.conventions().selection.largestTexture;
     if (largest > 0) images::shrinkToFit(*image, largest, !raw);
+    if (power > 0 && srgb) {
+        *image = build::decodedBy(*image, power);
+        srgb = false;
+    }
+    bool isColored = false;
+    if (ofMeans) {
+        isColored = build::isColored(*image, srgb);
+        *image = build::ofMeans(*image, srgb);
+        srgb = false;
+    }
     if (layout == Layout::Color)
         build::makeOpaque(*image);
     else if (layout != Layout::Grey || !build::isGrey(*image))
-        *image = build::rearranged(*image, !raw && image->format == TexelFormat::Rgba8, layout);
+        *image = build::rearranged(*image, srgb, layout);
     countBytes(*image, plugin);
-    return images_[key] = context_.builder.addImage(*std::move(image));
+    return images_[key] = Read{context_.builder.addImage(*std::move(image)), isColored};
 }
 
 /// A colour of a pattern.

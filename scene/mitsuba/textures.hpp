@@ -18,7 +18,8 @@ using build::Layout;
 struct Shade {
     glm::dvec3 color{1.0};
     std::optional<TextureUse> texture; ///< times `color`; its slot is to be set
-    std::string attribute; ///< the mesh attribute that the texture is to be painted with
+    std::string attribute;  ///< the mesh attribute that the texture is to be painted with
+    bool isColored = false; ///< of a file of 0.x, one number stands for channels that differ
 };
 
 /// A picture that a mesh is to be painted with, before it is known which mesh.
@@ -62,7 +63,12 @@ class Textures {
     Shade grid(const Plugin& texture, ColorOf what, Layout layout);
     std::optional<Shade> scaled(const Plugin& texture, ColorOf what, Layout layout);
     std::optional<Shade> unknown(const Plugin& texture, ColorOf what, Layout layout);
-    std::optional<uint32_t> image(const Plugin& texture, bool raw, Layout layout, char channel);
+    /// A picture of the scene; no number: it cannot be shown.
+    struct Read {
+        std::optional<uint32_t> image;
+        bool isColored = false; ///< one number stands for channels that differ (Mitsuba 0.x)
+    };
+    Read image(const Plugin& texture, bool raw, Layout layout, char channel);
     Shade meshAttribute(const Plugin& texture, const std::string& name, Layout layout);
     Shade shown(const Plugin& texture, TextureImage image, bool isNearest);
     void countBytes(const TextureImage& image, const Plugin& plugin);
@@ -70,8 +76,9 @@ class Textures {
     static constexpr uint32_t kFirstPaint = 0x80000000u;
 
     Context& context_;
-    /// By file, whether it is raw, layout and channel; nothing: it cannot be shown.
-    std::map<std::tuple<std::string, bool, Layout, char>, std::optional<uint32_t>> images_;
+    /// By file, whether it is raw, layout, channel, the power that decodes it and whether it is of
+    /// means.
+    std::map<std::tuple<std::string, bool, Layout, char, double, bool>, Read> images_;
     std::vector<Paint> paints_; ///< of numbers of textures from kFirstPaint on
     uint64_t bytes_ = 0;        ///< of all pictures
 };

@@ -185,7 +185,7 @@ TEST(MitsubaOldFiles, PicturesHaveAGammaAndChannels) {
     EXPECT_TRUE(usual.srgb);
     EXPECT_EQ(texel, 0xFF400080u);
     EXPECT_FALSE(image("<float name=\"gamma\" value=\"1\"/>").first.srgb);
-    EXPECT_TRUE(image("<float name=\"gamma\" value=\"2.2\"/>").first.srgb);
+    EXPECT_TRUE(image("<float name=\"gamma\" value=\"-1\"/>").first.srgb);
     EXPECT_EQ(image("<string name=\"channel\" value=\"r\"/>").second, 0xFF808080u);
     EXPECT_EQ(image("<string name=\"channel\" value=\"b\"/>").second, 0xFF404040u);
     const auto [alpha, covered] = image("<string name=\"channel\" value=\"a\"/>");

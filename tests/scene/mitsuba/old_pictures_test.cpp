@@ -29,6 +29,46 @@ std::string number(const char* name, double value) {
     return fmt::format("<float name=\"{}\" value=\"{}\"/>", name, value);
 }
 
+TEST(MitsubaOldPictures, AreDecodedByTheirPower) {
+    for (const double gamma : {1.8, 2.2}) {
+        const Scene scene =
+            loadOld(rectangleOf("<bsdf type=\"diffuse\">" +
+                                picture("reflectance", number("gamma", gamma)) + "</bsdf>"));
+        EXPECT_THAT(scene.report.forgiven, IsEmpty());
+        const glm::dvec4 texel = shown(scene, scene.materials.at(0));
+        EXPECT_NEAR(texel.x, std::pow(200 / 255.0, gamma), 1e-3);
+        EXPECT_NEAR(texel.y, std::pow(100 / 255.0, gamma), 1e-3);
+    }
+}
+
+/// Mitsuba 3 takes the luminance.
+TEST(MitsubaOldPictures, AreNumbersByTheMeanOfTheirChannels) {
+    const double mean = (srgbToLinear(200 / 255.0) + srgbToLinear(100 / 255.0)) / 3;
+    const std::string blend = "<bsdf type=\"blendbsdf\">" + picture("weight") +
+                              "<bsdf type=\"diffuse\"/><bsdf type=\"roughconductor\"/></bsdf>";
+    const Scene old = loadOld(rectangleOf(blend)), later = loadInside(rectangleOf(blend));
+    const auto share = [](const Scene& scene) {
+        return shown(scene, scene.materials.at(scene.triangles.at(0).material)).x;
+    };
+    EXPECT_NEAR(share(old), mean, 1e-3);
+    const double luminance =
+        0.212671 * srgbToLinear(200 / 255.0) + 0.715160 * srgbToLinear(100 / 255.0);
+    EXPECT_NEAR(share(later), luminance, 1e-3);
+    EXPECT_GT(mean, luminance + 0.01);
+}
+
+TEST(MitsubaOldPictures, MasksHaveOneOpacity) {
+    const auto problem = [](const std::string& opacity) {
+        return problemInOld(
+            rectangleOf("<bsdf type=\"mask\">" + opacity + "<bsdf type=\"diffuse\"/></bsdf>"));
+    };
+    const char* differs = "'opacity' differs between red, green and blue";
+    EXPECT_THAT(problem(picture("opacity")), HasSubstr(differs));
+    EXPECT_THAT(problem("<rgb name=\"opacity\" value=\"0.1, 0.5, 0.9\"/>"), HasSubstr(differs));
+    EXPECT_THAT(problem(picture("opacity", "<string name=\"channel\" value=\"r\"/>")), IsEmpty());
+    EXPECT_THAT(problem("<rgb name=\"opacity\" value=\"0.5\"/>"), IsEmpty());
+}
+
 /// Neither turns normals nor darkens what they say, as Mitsuba 3 does.
 TEST(MitsubaOldPictures, ReliefHasNoRulesOfLaterVersions) {
     for (const std::string type : {"bumpmap", "normalmap"}) {
@@ -41,6 +81,21 @@ TEST(MitsubaOldPictures, ReliefHasNoRulesOfLaterVersions) {
         EXPECT_EQ(later.reliefRule, ReliefRule::Flip) << type;
         EXPECT_TRUE(later.reliefShadows) << type;
     }
+}
+
+TEST(MitsubaOldPictures, AroundTheSceneHaveAGamma) {
+    const auto radiance = [](const std::string& inside) {
+        const Scene scene =
+            loadOld("<emitter type=\"envmap\"><string name=\"filename\" value=\"" +
+                    writePicture("around.tga", 2, 1, {{200, 100, 0, 255}, {200, 100, 0, 255}}) +
+                    "\"/>" + inside + "</emitter>" + rectangleOf(""));
+        EXPECT_THAT(scene.report.forgiven, IsEmpty());
+        return glm::dvec3(scene.environment->radiance.at(0));
+    };
+    EXPECT_NEAR(radiance("").x, srgbToLinear(200 / 255.0), 1e-5);
+    EXPECT_NEAR(radiance(number("gamma", -1)).x, srgbToLinear(200 / 255.0), 1e-5);
+    EXPECT_NEAR(radiance(number("gamma", 1)).y, 100 / 255.0, 1e-5);
+    EXPECT_NEAR(radiance(number("gamma", 1.8)).y, std::pow(100 / 255.0, 1.8), 1e-5);
 }
 
 } // namespace
