@@ -82,6 +82,8 @@ Surface readModel(Context& context, Textures& textures, const Plugin& bsdf) {
         bsdf.fail(fmt::format("is one of more than {} bsdfs inside each other", kMostBsdfs));
     SurfaceMaker maker(bsdf, textures, context);
     const std::string& type = bsdf.type;
+    // How samples are taken, and not what of.
+    if (bsdf.isOld) bsdf.skip("specular_sampling_weight");
     if (type == "diffuse") return diffuse(maker);
     if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric")
         return dielectric(maker);

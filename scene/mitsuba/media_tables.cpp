@@ -46,16 +46,26 @@ double indexOfName(const Plugin& plugin, std::string_view parameter, const std::
     return 0;
 }
 
+bool isNamedMetal(std::string_view name) {
+    return std::ranges::any_of(build::namedMetals(),
+                               [&](const build::NamedMetal& row) { return row.name == name; });
+}
+
 MetalIndex metalNamed(const Plugin& plugin, const std::string& name) {
     for (const build::NamedMetal& row : build::namedMetals())
         if (row.name == name) return row.index;
     for (const build::NamedMetal& row : build::namedMetals())
         if (inSmallLetters(row.name) == inSmallLetters(name)) return row.index;
+    // Mitsuba 0.x has two tables of some metals, those of one of them with a name that ends so.
+    constexpr std::string_view kSecondTable = "_palik";
+    std::string instead =
+        name.ends_with(kSecondTable) ? name.substr(0, name.size() - kSecondTable.size()) : "Cu";
+    if (!isNamedMetal(instead)) instead = "Cu";
     plugin.replace(build::Shortfall::Model,
                    fmt::format("'material' is '{}', expected one of {}, or eta and k", name,
                                namesOf(build::namedMetals())),
-                   "Cu");
-    return metalNamed(plugin, "Cu");
+                   instead);
+    return metalNamed(plugin, instead);
 }
 
 } // namespace

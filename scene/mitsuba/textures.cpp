@@ -166,10 +166,13 @@ std::optional<Shade> Textures::unknown(const Plugin& plugin, ColorOf what, Layou
         plugin.replace(build::Shortfall::Model, problem, "the texture inside of it");
         return texture(*inside.front(), what, layout);
     }
-    std::optional<glm::dvec3> color = firstColorOf(plugin, what);
-    if (plugin.type == "wireframe" && !color) color = glm::dvec3(0.5);
+    const bool isWire = plugin.type == "wireframe"; // most of which is what lies between its lines
+    const std::optional<glm::dvec3> color =
+        isWire ? colorOf(plugin, "interior_color", what).value_or(glm::dvec3(0.5))
+               : firstColorOf(plugin, what);
     if (!color) plugin.fail(problem);
-    plugin.replace(build::Shortfall::Model, problem, "its first colour");
+    plugin.replace(build::Shortfall::Model, problem,
+                   isWire ? "the colour between its lines" : "its first colour");
     return Shade{*color, {}, {}};
 }
 

@@ -69,6 +69,17 @@ TEST(MitsubaOldPictures, MasksHaveOneOpacity) {
     EXPECT_THAT(problem("<rgb name=\"opacity\" value=\"0.5\"/>"), IsEmpty());
 }
 
+TEST(MitsubaOldPictures, WiresAreOfTheColorBetweenThem) {
+    const std::string wire = "<bsdf type=\"diffuse\"><texture type=\"wireframe\" "
+                             "name=\"reflectance\"><rgb name=\"edgeColor\" value=\"0.9\"/>{}"
+                             "</texture></bsdf>";
+    const auto albedo = [&](const std::string& inside) {
+        return loadOld(rectangleOf(fmt::format(fmt::runtime(wire), inside))).materials.at(0).albedo;
+    };
+    EXPECT_EQ(albedo("<rgb name=\"interiorColor\" value=\"0.25\"/>"), glm::vec3(0.25f));
+    EXPECT_EQ(albedo(""), glm::vec3(0.5f));
+}
+
 /// Neither turns normals nor darkens what they say, as Mitsuba 3 does.
 TEST(MitsubaOldPictures, ReliefHasNoRulesOfLaterVersions) {
     for (const std::string type : {"bumpmap", "normalmap"}) {
@@ -96,6 +107,23 @@ TEST(MitsubaOldPictures, AroundTheSceneHaveAGamma) {
     EXPECT_NEAR(radiance(number("gamma", -1)).x, srgbToLinear(200 / 255.0), 1e-5);
     EXPECT_NEAR(radiance(number("gamma", 1)).y, 100 / 255.0, 1e-5);
     EXPECT_NEAR(radiance(number("gamma", 1.8)).y, std::pow(100 / 255.0, 1.8), 1e-5);
+}
+
+TEST(MitsubaOldPictures, SharesOfSamplesChangeNothing) {
+    const Scene scene = loadOld(
+        rectangleOf("<bsdf type=\"plastic\">" + number("specularSamplingWeight", 0.7) + "</bsdf>"));
+    EXPECT_THAT(scene.report.forgiven, IsEmpty());
+}
+
+TEST(MitsubaOldPictures, MetalsHaveASecondTable) {
+    const auto metal = [](const char* name) {
+        return loadOld(rectangleOf(fmt::format("<bsdf type=\"conductor\"><string name=\"material\" "
+                                               "value=\"{}\"/></bsdf>",
+                                               name)));
+    };
+    EXPECT_EQ(metal("Na_palik").materials.at(0).k, metal("Na").materials.at(0).k);
+    EXPECT_THAT(metal("Na_palik").report.forgiven, ElementsAre(HasSubstr("takes its place: Na")));
+    EXPECT_EQ(metal("Xx_palik").materials.at(0).k, metal("Cu").materials.at(0).k);
 }
 
 } // namespace
