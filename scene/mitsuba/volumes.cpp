@@ -61,6 +61,15 @@ Volume readGrid(const Context& context, const Plugin& volume) {
     // Mitsuba 0.x takes the box of the file, and Mitsuba 3 the unit cube.
     const bool takesBox = volume.flag("use_grid_bbox").value_or(volume.isOld);
     result.toFile = volume.transform("to_world");
+    // The outermost values of Mitsuba 0.x are at the sides of the box, those of Mitsuba 3 half a
+    // cell inside.
+    if (takesBox && volume.isOld)
+        for (const int axis : {0, 1, 2}) {
+            if (read.grid.size[axis] < 2) continue;
+            const double half = (read.high[axis] - read.low[axis]) / (read.grid.size[axis] - 1) / 2;
+            read.low[axis] -= half;
+            read.high[axis] += half;
+        }
     if (takesBox)
         result.toFile = result.toFile * glm::translate(glm::dmat4(1.0), read.low) *
                         glm::scale(glm::dmat4(1.0), read.high - read.low);

@@ -195,12 +195,16 @@ TEST(MitsubaMedia, HaveGrids) {
              "<bsdf type=\"null\"/>"));
     EXPECT_THAT(blocks.report.forgiven,
                 Contains(HasSubstr("'filter_type' is 'nearest', expected trilinear")));
-    // Mitsuba 0.x: the file's box.
+    // Mitsuba 0.x: the file's box, at whose sides the outermost values are.
     const Scene old = loadOld("<shape type=\"sphere\"><medium name=\"interior\" "
                               "type=\"heterogeneous\"><volume name=\"density\" " +
                               volume + "</volume></medium></shape>");
     ASSERT_TRUE(old.media.at(0).density);
     EXPECT_EQ(old.media.at(0).density->place({2, 0, 2.5}), glm::dvec3(0.5));
+    const glm::dvec3 corner = old.media.at(0).density->place({0, -1, 2});
+    EXPECT_NEAR(corner.x, 0.5 / 2, 1e-12);
+    EXPECT_NEAR(corner.y, 0, 1e-12); // of one cell
+    EXPECT_NEAR(corner.z, 0.5 / 3, 1e-12);
 }
 
 TEST(MitsubaMedia, HaveGridsOfColours) {
