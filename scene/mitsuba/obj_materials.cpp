@@ -1,5 +1,7 @@
 #include "scene/mitsuba/obj_materials.hpp"
 
+#include "scene/mitsuba/upgrade.hpp"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -7,12 +9,13 @@
 namespace stromboli::mitsuba {
 namespace {
 
-/// The shape's bsdf for a material of the file: that of its name, or the one without a name.
+/// The shape's bsdf for a material of the file: that of its name, or the one without a name. Names
+/// of objects inside others have been made those of later versions, as those of parameters.
 const Plugin* bsdfFor(const Plugin& shape, const std::string& material) {
     const Plugin* forAll = nullptr;
     for (const Plugin::Child& child : shape.children()) {
         if (child.plugin->tag != "bsdf") continue;
-        if (child.name == material) return child.plugin;
+        if (child.name == upgradedName(material)) return child.plugin;
         if (child.name.empty() && !forAll) forAll = child.plugin;
     }
     return forAll;

@@ -257,5 +257,19 @@ TEST(MitsubaOldShapes, CylindersBeginAcrossTheirOwnAxis) {
     EXPECT_NEAR(glm::distance(glm::dvec3(scene.positions.at(0)), glm::dvec3(0, -1, 0)), 0, 1e-6);
 }
 
+TEST(MitsubaOldShapes, MaterialsOfFilesHaveAnyName) {
+    writeFile("named_old.mtl", "newmtl myWood\nKd 0.5 0.5 0.5\nnewmtl B\nKd 0.5 0.5 0.5\n");
+    writeFile("named_old.obj",
+              "mtllib named_old.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl myWood\nf 1 2 3\n"
+              "usemtl B\nf 1 3 2\n");
+    const Scene scene = loadFile("obj", "named_old.obj",
+                                 "<bsdf type=\"diffuse\" name=\"myWood\"><rgb "
+                                 "name=\"reflectance\" value=\"0.25\"/></bsdf><bsdf "
+                                 "type=\"diffuse\" name=\"B\"><rgb name=\"reflectance\" "
+                                 "value=\"0.75\"/></bsdf>");
+    EXPECT_EQ(scene.materials.at(scene.triangles.at(0).material).albedo, glm::vec3(0.25f));
+    EXPECT_EQ(scene.materials.at(scene.triangles.at(1).material).albedo, glm::vec3(0.75f));
+}
+
 } // namespace
 } // namespace stromboli::test
