@@ -289,11 +289,12 @@ Textures::Read Textures::image(const Plugin& plugin, bool raw, Layout layout, ch
 
 /// A colour of a pattern.
 static glm::dvec3 colorNamed(const Plugin& pattern, const char* name, ColorOf what,
-                             double otherwise) {
+                             double otherwise, Layout layout) {
     const std::optional<glm::dvec3> color = colorOf(pattern, name, what);
     if (!color && pattern.child(name))
         pattern.replaceParameter(name, build::Shortfall::Word, "is a texture, expected a colour");
-    return color.value_or(glm::dvec3(otherwise));
+    const glm::dvec3 found = color.value_or(glm::dvec3(otherwise));
+    return isOfMeans(pattern, layout) ? glm::dvec3((found.x + found.y + found.z) / 3) : found;
 }
 
 /// A pattern as a picture that repeats.
@@ -312,8 +313,8 @@ Shade Textures::shown(const Plugin& plugin, TextureImage image, bool isNearest) 
 /// Two by two texels. As colours, the first and the last are color0; as numbers, for which Mitsuba
 /// 3 has another function, the two others are.
 Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) {
-    const glm::dvec3 colors[2] = {colorNamed(plugin, "color0", what, 0.4),
-                                  colorNamed(plugin, "color1", what, 0.2)};
+    const glm::dvec3 colors[2] = {colorNamed(plugin, "color0", what, 0.4, layout),
+                                  colorNamed(plugin, "color1", what, 0.2, layout)};
     TextureImage image{"checkerboard", 2, 2, TexelFormat::RgbaHalf, {}};
     const int first = layout == Layout::Color || plugin.isOld ? 0 : 1;
     for (const int which : {first, 1 - first, 1 - first, first})
@@ -324,8 +325,8 @@ Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) 
 /// Lines of color1 around whole coordinates, as wide to each side as line_width says. Texels that a
 /// line covers in part are mixtures, so that lines have their width in the mean.
 Shade Textures::grid(const Plugin& plugin, ColorOf what, Layout layout) {
-    const glm::dvec3 ground = colorNamed(plugin, "color0", what, 0.2);
-    const glm::dvec3 line = colorNamed(plugin, "color1", what, 0.4);
+    const glm::dvec3 ground = colorNamed(plugin, "color0", what, 0.2, layout);
+    const glm::dvec3 line = colorNamed(plugin, "color1", what, 0.4, layout);
     const double width = plugin.number("line_width", 0, 0.5).value_or(0.01);
     constexpr int kSide = 512;
     const auto covered = [&](int texel) { // by lines across this axis

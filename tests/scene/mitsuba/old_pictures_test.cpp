@@ -55,6 +55,12 @@ TEST(MitsubaOldPictures, AreNumbersByTheMeanOfTheirChannels) {
         0.212671 * srgbToLinear(200 / 255.0) + 0.715160 * srgbToLinear(100 / 255.0);
     EXPECT_NEAR(share(later), luminance, 1e-3);
     EXPECT_GT(mean, luminance + 0.01);
+    const std::string red = "<rgb name=\"color{}\" value=\"0.9, 0, 0\"/>";
+    const Scene board = loadOld(
+        rectangleOf("<bsdf type=\"blendbsdf\"><texture type=\"checkerboard\" name=\"weight\">" +
+                    fmt::format(fmt::runtime(red), 0) + fmt::format(fmt::runtime(red), 1) +
+                    "</texture><bsdf type=\"diffuse\"/><bsdf type=\"roughconductor\"/></bsdf>"));
+    EXPECT_NEAR(share(board), 0.3, 1e-3);
 }
 
 TEST(MitsubaOldPictures, MasksHaveOneOpacity) {
