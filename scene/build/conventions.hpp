@@ -112,6 +112,10 @@ struct SceneConventions {
 
     /// What breaks the rules of a format is an error, also where it is clear what is meant.
     bool strict = false;
+    /// Materials that an OBJ file names and does not state are grey and have their names, so that
+    /// whoever reads it can put others in their place; each is a warning (kUnstatedMaterial).
+    /// Otherwise all of them are one.
+    bool namesUnknownMaterials = false;
     /// A scene without any light gets one (scene/model/default_light.hpp).
     bool defaultLight = true;
 

@@ -1,8 +1,11 @@
 #include "scene/mitsuba/mesh_files.hpp"
 
 #include "scene/build/mesh_of_scene.hpp"
+#include "scene/mitsuba/obj_materials.hpp"
 #include "scene/obj/load_obj.hpp"
 #include "scene/ply/load_ply.hpp"
+
+#include <fmt/format.h>
 
 namespace stromboli::mitsuba {
 namespace {
@@ -34,14 +37,25 @@ FileMesh meshOf(Context& context, const Scene& scene, bool wantsLook) {
 SceneConventions conventionsOf(const Context& context) {
     SceneConventions conventions = context.builder.conventions();
     conventions.defaultLight = false;
+    conventions.namesUnknownMaterials = true;
     conventions.strict = false; // Report::adopt is strict with what has a meaning
     return conventions;
 }
 
 } // namespace
 
-FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook) {
+FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook,
+                     const Plugin& shape) {
     Scene scene = loadObj(file, conventionsOf(context));
+    std::erase_if(scene.report.warnings, [&](const std::string& line) {
+        if (!line.starts_with(kUnstatedMaterial)) return false;
+        const std::string material = line.substr(kUnstatedMaterial.size());
+        if (wantsLook && !bsdfFor(shape, material))
+            context.report().forgive(shape.place,
+                                     fmt::format("there is no material '{}'", material),
+                                     "such a surface is mid grey");
+        return true;
+    });
     FileMesh found = meshOf(context, scene, wantsLook);
     if (wantsLook)
         found.look = {std::move(scene.materials), std::move(scene.textures),

@@ -25,7 +25,9 @@ struct FileMesh {
     std::vector<uint32_t> materials; ///< of each triangle, into those of the look
 };
 
-FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook);
+/// wantsLook: the file's materials are asked for, by a shape that may have bsdfs in their place.
+FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook,
+                     const Plugin& shape);
 /// attribute: what the colours of corners are, as Mitsuba names it: vertex_color, face_color, ...;
 /// empty: vertex_color. areSrgb: as PlyAttribute has it.
 FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,

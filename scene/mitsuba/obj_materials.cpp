@@ -9,18 +9,6 @@
 namespace stromboli::mitsuba {
 namespace {
 
-/// The shape's bsdf for a material of the file: that of its name, or the one without a name. Names
-/// of objects inside others have been made those of later versions, as those of parameters.
-const Plugin* bsdfFor(const Plugin& shape, const std::string& material) {
-    const Plugin* forAll = nullptr;
-    for (const Plugin::Child& child : shape.children()) {
-        if (child.plugin->tag != "bsdf") continue;
-        if (child.name == upgradedName(material)) return child.plugin;
-        if (child.name.empty() && !forAll) forAll = child.plugin;
-    }
-    return forAll;
-}
-
 /// Adds materials of a file, with their textures, to the scene.
 class Adopter {
   public:
@@ -60,11 +48,28 @@ class Adopter {
 
 } // namespace
 
+const Plugin* bsdfFor(const Plugin& shape, const std::string& material) {
+    // Names of objects inside others have been made those of later versions, as those of
+    // parameters.
+    const Plugin* forAll = nullptr;
+    for (const Plugin::Child& child : shape.children()) {
+        if (child.plugin->tag != "bsdf") continue;
+        if (child.name == upgradedName(material)) return child.plugin;
+        if (child.name.empty() && !forAll) forAll = child.plugin;
+    }
+    return forAll;
+}
+
 bool usesOwnMaterials(const Plugin& shape) {
     if (shape.type != "obj" || !shape.isOld || !shape.childrenOf("emitter").empty()) return false;
     if (!shape.flag("load_materials").value_or(true)) return false;
+    // One bsdf is that of the whole shape, unless its name is that of a material: references to it
+    // are often named after what they are.
     const size_t bsdfs = shape.childrenOf("bsdf").size();
-    return bsdfs == 0 || bsdfs > 1;
+    const auto isOfMaterial = [](const Plugin::Child& child) {
+        return child.plugin->tag == "bsdf" && !child.name.empty() && child.name != "bsdf";
+    };
+    return bsdfs != 1 || std::ranges::any_of(shape.children(), isOfMaterial);
 }
 
 std::vector<BoundMaterial> bindOwnMaterials(Context& context, Materials& materials,

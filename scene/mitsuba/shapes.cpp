@@ -253,7 +253,7 @@ const FileMesh& Shapes::read(const Plugin& shape, const std::string& attribute) 
         mesh = serializedMesh(build::readFile(file), file.string(), uint64_t(index),
                               context_.report());
     else if (isNew && shape.type == "obj")
-        mesh = readObjMesh(context_, file, wantsLook);
+        mesh = readObjMesh(context_, file, wantsLook, shape);
     else if (isNew)
         mesh = readPlyMesh(context_, file, attribute, areSrgb);
     return *mesh;

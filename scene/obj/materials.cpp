@@ -1,5 +1,6 @@
 #include "scene/obj/materials.hpp"
 
+#include "scene/obj/load_obj.hpp"
 #include "scene/obj/material_rules.hpp"
 
 #include <fmt/format.h>
@@ -61,10 +62,21 @@ uint32_t Materials::nameNumber(const Statements& statement) {
     return found->second;
 }
 
+const BoundMaterial& Materials::unknown(uint32_t name) {
+    const auto [grey, isNew] = made_.try_emplace(name);
+    if (!isNew) return grey->second;
+    Material material = build::greyMaterial();
+    material.name = uses_[name].name;
+    builder_.report().warn(std::string(kUnstatedMaterial) + material.name);
+    grey->second.number = builder_.addMaterial(std::move(material));
+    return grey->second;
+}
+
 const BoundMaterial& Materials::of(std::optional<uint32_t> name) {
     if (name && !stated_.contains(uses_[*name].name)) addOwnLibrary(uses_[*name].place);
     if (name && !stated_.contains(uses_[*name].name)) {
         const Use& use = uses_[*name];
+        if (builder_.conventions().namesUnknownMaterials) return unknown(*name);
         builder_.report().forgive(use.place,
                                   fmt::format("there is no material '{}'", shortened(use.name)),
                                   "such a surface is mid grey");

@@ -35,6 +35,7 @@ class Materials {
   private:
     bool addLibrary(std::string_view name, const build::FilePlace& where);
     void addOwnLibrary(const build::FilePlace& where);
+    const BoundMaterial& unknown(uint32_t name);
     BoundMaterial make(const MtlMaterial& stated);
 
     std::filesystem::path folder_;

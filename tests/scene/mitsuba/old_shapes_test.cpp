@@ -192,6 +192,26 @@ TEST_F(MitsubaObjMaterials, ComeAfterTheShapes) {
                 ElementsAre(kRed, kGreen));
 }
 
+/// One that has a name is that of one material only.
+TEST_F(MitsubaObjMaterials, AreReplacedOneByOne) {
+    const std::string blue = "<bsdf type=\"diffuse\" name=\"blue\">" + kGreenBsdf;
+    EXPECT_THAT(colorsOf(loadFile("obj", "two.obj", blue)), ElementsAre(kRed, kGreen));
+    const std::string all = "<bsdf type=\"diffuse\" name=\"bsdf\">" + kGreenBsdf;
+    EXPECT_THAT(colorsOf(loadFile("obj", "two.obj", all)), ElementsAre(kGreen, kGreen));
+}
+
+/// A file without a library has names alone.
+TEST_F(MitsubaObjMaterials, NeedNoLibrary) {
+    writeFile("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    const std::string a = "<bsdf type=\"diffuse\" name=\"a\">" + kGreenBsdf;
+    const Scene both = loadFile("obj", "bare.obj", a + "<bsdf type=\"diffuse\" name=\"b\"/>");
+    EXPECT_THAT(colorsOf(both), ElementsAre(kGreen, glm::vec3(0.5f)));
+    EXPECT_THAT(both.report.forgiven, IsEmpty());
+    const Scene one = loadFile("obj", "bare.obj", a);
+    EXPECT_THAT(colorsOf(one), ElementsAre(kGreen, glm::vec3(0.5f)));
+    EXPECT_THAT(one.report.forgiven, ElementsAre(HasSubstr("there is no material 'b'")));
+}
+
 /// What a file says of materials is not reported where the scene has others.
 TEST_F(MitsubaObjMaterials, AreNotMissedWhereTheyAreNotWanted) {
     writeFile("lost.obj", "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
