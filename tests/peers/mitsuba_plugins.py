@@ -207,14 +207,14 @@ def blocks(picture_):
     return picture_[: rows * 8, : columns * 8].reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
 
 
-def compare(program, name, text, ours=None):
-    """Whether both agree; prints how far. ours: another text of the scene for this program, of pbrt."""
+def compare(program, name, text, ours=None, ending=".pbrt"):
+    """Whether both agree; prints how far. ours: another text of the scene for this program, in a file that ends so."""
     file = name + ".xml"
     with open(file, "w", encoding="utf-8") as out:
         out.write(text)
     theirs = np.array(mi.render(mi.load_file(file), spp=1024))[..., :3]
     if ours:
-        file = name + ".pbrt"
+        file = name + ending
         with open(file, "w", encoding="utf-8") as out:
             out.write(ours)
     done = subprocess.run([program, "render", file, "-s", "512", "-o", "ours.exr"], capture_output=True, text=True, check=False)
