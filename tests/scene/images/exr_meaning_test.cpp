@@ -2,11 +2,15 @@
 #include "scene/images/float_image.hpp"
 #include "tests/scene/images/encoders.hpp"
 
+#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfEnvmap.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -61,6 +65,41 @@ TEST(ExrMeaning, LuminanceAndChromaAreColours) {
             .texels.at(0);
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(found[i], color[i], 1e-3f) << "channel " << i; // weights of four digits
+}
+
+/// Green is there for every other column and row, x + 2 y, and in between by its neighbours; beyond
+/// the last one it is the last one's. The other channels are whole.
+TEST(ExrMeaning, ChannelsOfFewerPixelsAreInterpolated) {
+    constexpr int kSize = 4;
+    const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                       ("stromboli_exr_" + std::to_string(getpid()) + ".exr");
+    const std::vector<float> red(kSize * kSize, 7), green{0, 2, 4, 6};
+    {
+        Imf::Header header(kSize, kSize);
+        header.channels().insert("R", Imf::Channel(Imf::FLOAT));
+        header.channels().insert("G", Imf::Channel(Imf::FLOAT, 2, 2));
+        header.channels().insert("B", Imf::Channel(Imf::FLOAT));
+        Imf::FrameBuffer buffer;
+        const auto add = [&](const char* name, const std::vector<float>& values, int sampling) {
+            buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), header.dataWindow(),
+                                                 sizeof(float), sizeof(float) * kSize / sampling,
+                                                 sampling, sampling));
+        };
+        add("R", red, 1);
+        add("G", green, 2);
+        add("B", red, 1);
+        Imf::OutputFile out(file.c_str(), header);
+        out.setFrameBuffer(buffer);
+        out.writePixels(kSize);
+    }
+    const FloatImage image = readFloatImage(file);
+    std::filesystem::remove(file);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y));
+            expectNear(image.texels.at(size_t(y) * kSize + size_t(x)),
+                       {7, float(std::min(x, 2) + 2 * std::min(y, 2)), 7});
+        }
 }
 
 /// Faces of a cube lie below each other: +x, -x, +y, -y, +z, -z. In the environment's picture the
