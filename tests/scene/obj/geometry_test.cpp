@@ -84,6 +84,17 @@ TEST(ObjGeometry, ObjectsAndGroupsAreInstances) {
     EXPECT_EQ(ofSeat, 2u);
 }
 
+/// Each is a mesh with texture coordinates of its own, whichever of the file's it has.
+TEST(ObjGeometry, GroupsHaveTextureCoordinatesInCommon) {
+    const Scene scene = loadObjText(kSquare + "vt 0.25 0.5\nvt 0.75 0.5\ng a\nf 1/1 2/1 3/2\n"
+                                              "g b\nf 1/2 3/1 4/1\n");
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    EXPECT_EQ(uvOf(scene, 0, 0).x, 0.25f);
+    EXPECT_EQ(uvOf(scene, 0, 2).x, 0.75f);
+    EXPECT_EQ(uvOf(scene, 1, 0).x, 0.75f);
+    EXPECT_EQ(uvOf(scene, 1, 2).x, 0.25f);
+}
+
 TEST(ObjGeometry, LinesGoOnAfterABackslashAndEndInAnyWay) {
     const std::string face = "f 1 2 \\\n 3 \\\r\n 4";
     EXPECT_EQ(loadObjText(kSquare + face).triangles.size(), 2u);
