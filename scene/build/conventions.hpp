@@ -3,6 +3,7 @@
 #include "host/core/text.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -112,10 +113,10 @@ struct SceneConventions {
 
     /// What breaks the rules of a format is an error, also where it is clear what is meant.
     bool strict = false;
-    /// Materials that an OBJ file names and does not state are grey and have their names, so that
-    /// whoever reads it can put others in their place; each is a warning (kUnstatedMaterial).
-    /// Otherwise all of them are one.
-    bool namesUnknownMaterials = false;
+    /// Told the name of each material that an OBJ file names and does not state. Such a material is
+    /// grey then and has its name, so that whoever reads the file can put another in its place.
+    /// Empty: all of them are one, and the file's report says so.
+    std::function<void(const std::string&)> onUnknownMaterial;
     /// A scene without any light gets one (scene/model/default_light.hpp).
     bool defaultLight = true;
 

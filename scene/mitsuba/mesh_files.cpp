@@ -37,7 +37,6 @@ FileMesh meshOf(Context& context, const Scene& scene, bool wantsLook) {
 SceneConventions conventionsOf(const Context& context) {
     SceneConventions conventions = context.builder.conventions();
     conventions.defaultLight = false;
-    conventions.namesUnknownMaterials = true;
     conventions.strict = false; // Report::adopt is strict with what has a meaning
     return conventions;
 }
@@ -46,16 +45,14 @@ SceneConventions conventionsOf(const Context& context) {
 
 FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook,
                      const Plugin& shape) {
-    Scene scene = loadObj(file, conventionsOf(context));
-    std::erase_if(scene.report.warnings, [&](const std::string& line) {
-        if (!line.starts_with(kUnstatedMaterial)) return false;
-        const std::string material = line.substr(kUnstatedMaterial.size());
+    SceneConventions conventions = conventionsOf(context);
+    conventions.onUnknownMaterial = [&](const std::string& material) {
         if (wantsLook && !bsdfFor(shape, material))
             context.report().forgive(shape.place,
                                      fmt::format("there is no material '{}'", material),
                                      "such a surface is mid grey");
-        return true;
-    });
+    };
+    Scene scene = loadObj(file, conventions);
     FileMesh found = meshOf(context, scene, wantsLook);
     if (wantsLook)
         found.look = {std::move(scene.materials), std::move(scene.textures),

@@ -8,10 +8,6 @@
 
 namespace stromboli {
 
-/// Where SceneConventions::namesUnknownMaterials is set, each unknown material is a warning of this
-/// and its name.
-inline constexpr std::string_view kUnstatedMaterial = "there is no material: ";
-
 /// Reads a Wavefront OBJ file with the MTL files and pictures that it names;
 /// docs/guide/obj_ply.md says what of them. Throws SceneError with file and line for anything it
 /// cannot make sense of.

@@ -67,7 +67,7 @@ const BoundMaterial& Materials::unknown(uint32_t name) {
     if (!isNew) return grey->second;
     Material material = build::greyMaterial();
     material.name = uses_[name].name;
-    builder_.report().warn(std::string(kUnstatedMaterial) + material.name);
+    builder_.conventions().onUnknownMaterial(material.name);
     grey->second.number = builder_.addMaterial(std::move(material));
     return grey->second;
 }
@@ -76,7 +76,7 @@ const BoundMaterial& Materials::of(std::optional<uint32_t> name) {
     if (name && !stated_.contains(uses_[*name].name)) addOwnLibrary(uses_[*name].place);
     if (name && !stated_.contains(uses_[*name].name)) {
         const Use& use = uses_[*name];
-        if (builder_.conventions().namesUnknownMaterials) return unknown(*name);
+        if (builder_.conventions().onUnknownMaterial) return unknown(*name);
         builder_.report().forgive(use.place,
                                   fmt::format("there is no material '{}'", shortened(use.name)),
                                   "such a surface is mid grey");
