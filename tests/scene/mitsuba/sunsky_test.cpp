@@ -40,9 +40,8 @@ TEST(SkyModel, IsMitsubas) {
         SCOPED_TRACE(known.elevation);
         const double elevation = glm::radians(known.elevation);
         const SkyModel model(3.7, {0.1, 0.5, 0.9}, elevation);
-        const double fromSun =
-            std::acos(glm::dot(d, glm::dvec3(0, std::cos(elevation), std::sin(elevation))));
-        expectNear(model.sky(d.z, std::cos(fromSun)), known.sky, 1e-4);
+        const double cosSun = glm::dot(d, glm::dvec3(0, std::cos(elevation), std::sin(elevation)));
+        expectNear(model.sky(d.z, cosSun), known.sky, 1e-4);
         // Mitsuba's sun is between 30 elevations: at 5 degrees that is off by 1 % in blue.
         expectNear(model.sun(), known.sun, known.elevation < 10 ? 0.01 : 0.003);
     }
