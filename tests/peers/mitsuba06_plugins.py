@@ -5,11 +5,6 @@ Mitsuba 0.6 itself is at hand nowhere. What its manual says of a name, a default
 Mitsuba 3 by hand, with pictures and meshes made for it where the two differ: so this file holds the rules of 0.6 a second
 time. Shown is what mitsuba_plugins.py shows, with the same limits. Needs Mitsuba's Python module; by hand.
 """
-import argparse
-import os
-import sys
-import tempfile
-
 import mitsuba as mi
 import mitsuba_plugins as plugins
 import numpy as np
@@ -321,24 +316,5 @@ def everything():
         yield name, scene6(ours), plugins.scene(theirs)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("names", nargs="*")
-    arguments = parser.parse_args()
-    program = os.path.abspath(arguments.program)
-    scenes = {name: (ours, theirs) for name, ours, theirs in everything()}
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        write_files()
-        agree = []
-        for name in arguments.names or scenes:
-            ours, theirs = scenes[name]
-            agree.append(plugins.compare(program, name, theirs, ours, "_06.xml"))
-        os.chdir("/")
-    print(f"{sum(agree)} of {len(agree)} agree")
-    sys.exit(0 if all(agree) else 1)
-
-
 if __name__ == "__main__":
-    main()
+    plugins.try_all(__doc__, write_files, lambda: ((name, theirs, ours) for name, ours, theirs in everything()), "_06.xml")

@@ -207,8 +207,8 @@ def blocks(picture_):
     return picture_[: rows * 8, : columns * 8].reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
 
 
-def compare(program, name, text, ours=None, ending=".pbrt"):
-    """Whether both agree; prints how far. ours: another text of the scene for this program, in a file that ends so."""
+def compare(program, name, text, ours, ending):
+    """Whether both agree; prints how far. ours: another text of the scene for this program, in a file that ends so, or None."""
     file = name + ".xml"
     with open(file, "w", encoding="utf-8") as out:
         out.write(text)
@@ -236,21 +236,23 @@ def compare(program, name, text, ours=None, ending=".pbrt"):
     return agree or name in KNOWN
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def try_all(documentation, write, everything, ending=""):
+    """Compares all scenes, or those that are named, in a folder that is gone then, and ends the script. write: makes files that
+    scenes name. everything: names, texts of Mitsuba 3, and others for this program, in files that end so, or None."""
+    parser = argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
     program = os.path.abspath(arguments.program)
-    scenes = dict(everything())
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        write_files()
-        agree = [compare(program, name, scenes[name]) for name in arguments.names or scenes]
+        write()
+        scenes = {name: (theirs, ours) for name, theirs, ours in everything()}
+        agree = [compare(program, name, *scenes[name], ending) for name in arguments.names or scenes]
         os.chdir("/")
     print(f"{sum(agree)} of {len(agree)} agree")
     sys.exit(0 if all(agree) else 1)
 
 
 if __name__ == "__main__":
-    main()
+    try_all(__doc__, write_files, lambda: ((name, text, None) for name, text in everything()))

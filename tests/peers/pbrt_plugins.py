@@ -5,10 +5,6 @@ pbrt itself is at hand nowhere. What its manual and its book say of a material, 
 Mitsuba by hand, with meshes and pictures made for it where it has no such thing: so this file holds pbrt's rules a second
 time. Shown is what mitsuba_plugins.py shows, with the same limits. Needs Mitsuba's Python module; by hand.
 """
-import argparse
-import os
-import sys
-import tempfile
 
 import mitsuba as mi
 import mitsuba_plugins as plugins
@@ -342,24 +338,5 @@ def everything():
     yield "instance", scene4(copied), scene3(stretched)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("names", nargs="*")
-    arguments = parser.parse_args()
-    program = os.path.abspath(arguments.program)
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        files.write_files()
-        scenes = {name: (ours, theirs) for name, ours, theirs in everything()}
-        agree = []
-        for name in arguments.names or scenes:
-            ours, theirs = scenes[name]
-            agree.append(plugins.compare(program, name, theirs, ours))
-        os.chdir("/")
-    print(f"{sum(agree)} of {len(agree)} agree")
-    sys.exit(0 if all(agree) else 1)
-
-
 if __name__ == "__main__":
-    main()
+    plugins.try_all(__doc__, files.write_files, lambda: ((name, theirs, ours) for name, ours, theirs in everything()), ".pbrt")
