@@ -161,7 +161,7 @@ constexpr Row<Asked> kPictureRows[] = {
      }},
     {"roulette", "none, throughput or a probability of ending a path at every hit",
      [](Asked& a, Name n, const Value& v) { a.request.estimator.roulette = roulette(n, v); }},
-    {"gap_proposal", "whether some bounces go into the gap between a light and a surface",
+    {"gap_proposal", "whether some bounces go into the gap behind a light, or into shades of lamps",
      [](Asked& a, Name n, const Value& v) { a.request.estimator.gapProposal = yes(n, v); }},
     {"branches", "paths that share a camera ray; samples is a multiple of it",
      [](Asked& a, Name n, const Value& v) { a.request.branches = whole(n, v, 1, 64); }},

@@ -89,10 +89,11 @@ void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked) {
         .usually("throughput")
         .proposes({"none", "throughput"})
         .from("0 to 1, without 1");
-    list.onOff("--gap-proposal",
-               "on: some bounces go into the bright gap between a light and a surface close to it; "
-               "off: all as the materials scatter",
-               e.gapProposal);
+    list.onOff(
+        "--gap-proposal",
+        "on: some bounces go into the bright gap between a light and a surface close to it, or "
+        "into shades of lamps; off: all as the materials scatter",
+        e.gapProposal);
     list.onOff("--terminator-offset",
                "on: meshes with normals of their own reflect light from the smooth surface that "
                "these describe; off: from their flat triangles, as most renderers have it",

@@ -145,6 +145,7 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
 void fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                   const Estimator& estimator) {
     if (built.recordsOfRay == 0) built.recordsOfRay = recordsOfRay(built.bvh, camera);
+    if (!built.lit && mayAimBounces(estimator)) built.lit = findLitCells(built);
     built.portals = {};
     if (!aimsAtPortals(built, estimator)) return;
     const std::shared_ptr<const EnvironmentTable>& sky = built.lights.environment;

@@ -4,6 +4,7 @@
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
 #include "host/kernel/kernel_buffers.hpp"
+#include "host/kernel/kernel_features.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/block_backend.hpp"
 #include "host/version/version.hpp"
@@ -257,6 +258,9 @@ void Renderer::fitToPicture() {
         listener_.detail(fmt::format("light samples aim at {} {} that the sky is seen through{}",
                                      count, count == 1 ? "rectangle" : "rectangles",
                                      areStated ? "" : " (found: --portals off leaves them out)"));
+    if (aimsBounces(scene, settings_.estimator))
+        listener_.detail("some bounces aim at what lamps light from near by (--gap-proposal off "
+                         "leaves that out)");
 }
 
 void Renderer::build(const Estimator& estimator) {

@@ -144,6 +144,7 @@ void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
     g.mediumRow = std::move(materials.media.firstRow);
     for (const uint32_t closures : materials.media.closures)
         g.closures.add(closures);
+    g.lit.reset();
     g.lights = packLights(scene, g.bvh.placeOf, lights,
                           appendPictures(g.materials, g.details.ofLights), std::move(environment));
     const LightFoci foci = lightFoci(scene);

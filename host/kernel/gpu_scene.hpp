@@ -3,6 +3,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/detail_plan.hpp"
 #include "host/kernel/detail_rows.hpp"
+#include "host/kernel/find_lit_cells.hpp"
 #include "host/kernel/find_portals.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/material_rows.hpp"
@@ -11,6 +12,7 @@
 #include "scene/model/scene.hpp"
 #include "shaders/shared/scene_types.h"
 
+#include <optional>
 #include <vector>
 
 namespace stromboli {
@@ -24,7 +26,9 @@ struct GpuScene {
     std::vector<Row> materials;
     DetailRows details; ///< attributes of corners, and texels
     LightTable lights;
-    Portals portals;          ///< of the picture to come; packScene() leaves it empty
+    Portals portals; ///< of the picture to come; packScene() leaves it empty
+    std::optional<LitCells>
+        lit;                  ///< where bounces aim; none: not looked for, as packScene() leaves it
     double recordsOfRay = 0;  ///< recordsOfRay() of its first picture; packScene() leaves it 0
     SceneClosures closures;   ///< of the materials that primitives have
     bool hasEmission = false; ///< a primitive emits

@@ -109,6 +109,8 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
                              sizeof(gpu::LightNote),
                          rows});
     }
+    if (aimsBounces(scene, estimator))
+        plans.push_back({"lit cells", litRows(*scene.lit).size() * sizeof(Row), rows});
     if (aimsAtPortals(scene, estimator))
         plans.push_back({"portals", kMostPortals * sizeof(gpu::PortalRows), rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});

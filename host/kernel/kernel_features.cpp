@@ -83,9 +83,7 @@ uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
 }
 
 bool proposesGap(const GpuScene& scene, const Estimator& settings) {
-    return settings.gapProposal && scene.gapWidth != 0 && scene.mostOthers == 0 &&
-           samplesLights(settings.directLight) && settings.integrator == Integrator::Path &&
-           settings.maxBounces > 1;
+    return mayAimBounces(settings) && scene.gapWidth != 0 && scene.mostOthers == 0;
 }
 
 uint32_t integratorConstant(Integrator integrator) {
@@ -212,6 +210,16 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     KERNEL_FEATURES(SET_FEATURE)
 #undef SET_FEATURE
     return f;
+}
+
+bool mayAimBounces(const Estimator& settings) {
+    return settings.gapProposal && samplesLights(settings.directLight) &&
+           settings.integrator == Integrator::Path && settings.maxBounces > 1;
+}
+
+bool aimsBounces(const GpuScene& scene, const Estimator& settings) {
+    return mayAimBounces(settings) && scene.lit && !scene.lit->cells.empty() &&
+           !proposesGap(scene, settings);
 }
 
 bool guidesLight(const GpuScene& scene, const Estimator& settings) {

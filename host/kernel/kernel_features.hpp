@@ -33,6 +33,10 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
 KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning);
 
+/// Whether some bounces of these settings may go where lamps make it bright.
+bool mayAimBounces(const Estimator& settings);
+/// Whether they go to the scene's lit cells.
+bool aimsBounces(const GpuScene& scene, const Estimator& settings);
 /// Whether light samples of these settings go to an environment, and shall be guided.
 bool guidesLight(const GpuScene& scene, const Estimator& settings);
 /// Whether light samples of these settings go to the sky, and shall aim at the scene's portals.

@@ -157,6 +157,9 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     filter_ =
         uploaded("pixel filter", filterTable(estimator.filter, estimator.filterShape), tuning);
     portals_ = aims ? uploaded("portals", portalRows(scene_->portals.all), tuning) : nullptr;
+    litCells_ = aimsBounces(*scene_, estimator_)
+                    ? uploaded("lit cells", litRows(*scene_->lit), tuning)
+                    : nullptr;
     StageKernels kernels = compiled.get();
     if (mayLearn) {
         learn(tuning);
@@ -185,10 +188,12 @@ std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSe
     return std::make_unique<PersistentDispatcher>(target, *kernels.front(), settings);
 }
 
-/// The buffer by which light samples to the sky choose where they go: portals, or the guide.
-/// Kernels without either read nothing of it, and get one that is there in any case.
+/// The buffer by which samples choose where they go: light samples to the sky by portals or the
+/// guide, bounces by lit cells, of which there are none where there is a sky. Kernels without any
+/// read nothing of it, and get one that is there in any case.
 const vulkan::Buffer& VulkanBackend::whereSamplesGo(bool areNoted) const {
     if (portals_) return *portals_;
+    if (litCells_) return *litCells_;
     return estimator_.guidesLight && !areNoted ? *guide_ : *filter_;
 }
 

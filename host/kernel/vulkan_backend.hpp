@@ -125,10 +125,11 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
         bool parallel; ///< camera rays
     };
     std::optional<LearntFor> learntFor_;
-    std::unique_ptr<vulkan::Buffer> guide_;   ///< LightGuide::rows; none: it does not pay
-    std::unique_ptr<vulkan::Buffer> portals_; ///< PortalRows; none: light samples aim at none
-    std::unique_ptr<vulkan::Buffer> filter_;  ///< the table of its pixel filter
-    std::unique_ptr<Dispatcher> dispatcher_;  ///< refers to film, filter and kernels
+    std::unique_ptr<vulkan::Buffer> guide_;    ///< LightGuide::rows; none: it does not pay
+    std::unique_ptr<vulkan::Buffer> litCells_; ///< litRows(); none: bounces do not aim
+    std::unique_ptr<vulkan::Buffer> portals_;  ///< PortalRows; none: light samples aim at none
+    std::unique_ptr<vulkan::Buffer> filter_;   ///< the table of its pixel filter
+    std::unique_ptr<Dispatcher> dispatcher_;   ///< refers to film, filter and kernels
 };
 
 } // namespace stromboli

@@ -197,8 +197,9 @@ struct Estimator {
     FilterShape filterShape;
     LightChoice lightChoice = LightChoice::Automatic;
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
-    bool gapProposal =
-        true; ///< bounces are sent into bright gaps too (docs/theory/estimator.md, "Gaps")
+    /// Bounces are sent into bright gaps and into shades of lamps too (docs/theory/estimator.md,
+    /// "Gaps", "Aimed bounces").
+    bool gapProposal = true;
     /// Light samples to an environment go where others have found it before (docs/theory/
     /// estimator.md, "Learned light samples"), not by its brightness alone.
     bool guidesLight = false;

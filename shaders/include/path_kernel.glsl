@@ -39,6 +39,7 @@ uint firstPlace() { return gl_WorkGroupID.x >> 31; }
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
 #include "include/two_sides.glsl"
+#include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"

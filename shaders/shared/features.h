@@ -168,9 +168,11 @@
     F(62, uint, PORTALS, 0u, aimsAtPortals(scene, settings) ? scene.portals.all.size() : 0, own, \
       "portals", count(""), "light samples to the sky that aim at windows") \
     F(63, uint, STRANDS, 0u, tuning.strands > 1 ? tuning.strands : 0, own, \
-      "lanes at a pixel", count(""), "strands of a pixel's samples, each with sums of its own (PixelState)")
+      "lanes at a pixel", count(""), "strands of a pixel's samples, each with sums of its own (PixelState)") \
+    F(64, uint, LIT_CELLS, 0u, aimsBounces(scene, settings) ? scene.lit->cells.size() : 0, own, \
+      "cells that bounces aim at", count(""), "a second density of bounces, to what lamps light (aimed_bounces.glsl)")
 
-#define SPEC_COUNT 64
+#define SPEC_COUNT 65
 
 #ifdef __cplusplus
 namespace stromboli {

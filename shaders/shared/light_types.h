@@ -139,6 +139,20 @@ struct PortalRows {
 SHARED_CONST uint PORTAL_ROWS = 3u;
 SHARED_ROWS(PortalRows, PORTAL_ROWS);
 
+/// A cell of a triangle that lamps light, a column of an alias table of all such cells (host/kernel/find_lit_cells.hpp).
+/// A triangle's squares of barycentric weights are numbered by that of v1, then that of v2, and have two cells each, that
+/// towards v0 first. Behind the cells, in rows of four, is for each place in the tree NO_CELLS or its first cell, above
+/// CELLS_LEVEL_BITS of the power of two that a triangle's sides are divided into.
+struct LitCell {
+    float threshold; ///< below this fraction of the column the cell itself is taken,
+    uint alias;      ///< above it this one
+    uint place;
+    float density; ///< by area, of bounces that aim
+};
+SHARED_ROWS(LitCell, 1);
+SHARED_CONST uint CELLS_LEVEL_BITS = 4u;
+SHARED_CONST uint NO_CELLS = 0xFFFFFFFFu;
+
 // --- Picking one light --------------------------------------------------------------------------
 // The table of lights holds all LightEntry rows, and behind them either AliasColumn rows, one for each
 // light, or the nodes of the light tree.

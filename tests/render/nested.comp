@@ -36,6 +36,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
 #include "include/two_sides.glsl"
+#include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"

@@ -1,0 +1,217 @@
+// Bounces that aim at what lamps light: which cells are found, and pictures: no bias by any cells,
+// less noise where a lamp stands in a shade, the same bytes however the work is cut.
+#include "host/kernel/find_lit_cells.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "host/kernel/light_table.hpp"
+#include "host/kernel/sampling_tables.hpp"
+#include "host/render/sampling_session.hpp"
+#include "tests/kernel/window_room.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+struct Room {
+    bool hasShade = true, hasSky = false, hasSpot = false, lampIsMesh = false;
+    bool hasPlastic = false; ///< on the floor
+};
+
+/// A closed box of side 2 about the origin, in which a lamp stands in a shade that is open above.
+Scene roomWithLamp(const Room& room) {
+    scenes::SceneMaker b;
+    const uint32_t white = b.add(scenes::diffuse(0.6f));
+    Material plastic = scenes::diffuse(0.6f);
+    plastic.kind = MaterialKind::Plastic;
+    const uint32_t floor = room.hasPlastic ? b.add(plastic) : white;
+    const auto box = [&](const glm::vec3& low, const glm::vec3& size, bool isOpen, uint32_t under) {
+        const glm::vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+        b.quad(low, z, x, under);
+        if (!isOpen) b.quad(low + y, x, z, white);
+        b.quad(low, y, z, white), b.quad(low + x, z, y, white);
+        b.quad(low, x, y, white), b.quad(low + z, y, x, white);
+    };
+    box({-1, -1, -1}, {2, 2, 2}, false, floor);
+    const uint32_t shine = b.add(scenes::emissive(100));
+    const glm::vec3 at(-0.7f, -0.2f, -0.7f);
+    if (room.lampIsMesh)
+        b.quad(at - glm::vec3(0.04f, 0, 0.04f), {0, 0, 0.08f}, {0.08f, 0, 0}, shine);
+    else
+        b.sphere(at, 0.04f, shine);
+    if (room.hasShade) box(at - glm::vec3(0.1f, 0.1f, 0.1f), {0.2f, 0.3f, 0.2f}, true, white);
+    if (room.hasSky) b.scene.lights.emplace_back().kind = LightKind::Ambient;
+    if (room.hasSpot) b.scene.lights.emplace_back().kind = LightKind::Point;
+    return b.scene;
+}
+
+GpuScene packed(const Scene& scene, const Estimator& estimator = {}) {
+    return packScene(scene, buildWideBvh(scene), lightSelection(estimator));
+}
+
+double areaOf(const Scene& scene, size_t triangle) {
+    const auto& c = scene.triangles[triangle].corner;
+    const glm::dvec3 p = scene.positions[c[0]], q = scene.positions[c[1]],
+                     r = scene.positions[c[2]];
+    return 0.5 * glm::length(glm::cross(q - p, r - p));
+}
+
+/// Cells of a triangle that its squares beyond the diagonal have not.
+bool isInTriangle(uint32_t cell, uint32_t level) {
+    const uint32_t side = 1u << level, square = cell / 2;
+    return square / side + square % side + cell % 2 < side;
+}
+
+/// Any cells of every third triangle, with probabilities that differ a thousandfold.
+LitCells anyCells(const Scene& scene, const GpuScene& gpu) {
+    Random random(31);
+    LitCells lit;
+    lit.ofPlace.assign((2 * gpu.bvh.records.size() + 3) / 4 * 4, gpu::NO_CELLS);
+    std::vector<double> weights, areas;
+    for (size_t t = 0; t < scene.triangles.size(); t += 3) {
+        if (scene.materials[scene.triangles[t].material].emission != glm::vec3(0)) continue;
+        const uint32_t place = gpu.bvh.placeOf[t], level = random.below(4);
+        lit.ofPlace[place] = uint32_t(weights.size()) << gpu::CELLS_LEVEL_BITS | level;
+        for (uint32_t cell = 0; cell < 2u << 2 * level; ++cell) {
+            const bool isThere = isInTriangle(cell, level) && random.uniform() < 0.7f;
+            weights.push_back(isThere ? random.ofAnySize(1e-3f, 1) : 0);
+            areas.push_back(areaOf(scene, t) / double(1u << 2 * level));
+            lit.cells.push_back({0, 0, place, 0});
+        }
+    }
+    const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const std::vector<AliasColumn> columns = buildAliasTable(weights);
+    for (size_t i = 0; i < weights.size(); ++i) {
+        lit.cells[i].threshold = float(columns[i].threshold);
+        lit.cells[i].alias = columns[i].alias;
+        lit.cells[i].density = float(weights[i] / areas[i] / all);
+    }
+    return lit;
+}
+
+TEST(LitCells, AreWhereTheLightOfALampInAShadeLands) {
+    for (const bool isMesh : {false, true}) {
+        const Scene scene = roomWithLamp({.lampIsMesh = isMesh});
+        const GpuScene gpu = packed(scene);
+        const LitCells lit = findLitCells(gpu);
+        ASSERT_FALSE(lit.cells.empty());
+        double inShade = 0, all = 0;
+        for (size_t t = 0; t < scene.triangles.size(); ++t) {
+            const uint32_t cells = lit.ofPlace[gpu.bvh.placeOf[t]];
+            if (cells == gpu::NO_CELLS) continue;
+            const uint32_t level = cells & ((1u << gpu::CELLS_LEVEL_BITS) - 1);
+            const double area = areaOf(scene, t) / double(1u << 2 * level);
+            for (uint32_t cell = 0; cell < 2u << 2 * level; ++cell) {
+                const gpu::LitCell& c = lit.cells.at((cells >> gpu::CELLS_LEVEL_BITS) + cell);
+                EXPECT_EQ(c.place, gpu.bvh.placeOf[t]);
+                EXPECT_TRUE(c.density == 0 || isInTriangle(cell, level));
+                all += double(c.density) * area;
+                if (areaOf(scene, t) < 0.1) inShade += double(c.density) * area;
+            }
+        }
+        EXPECT_NEAR(all, 1, 1e-5) << "a density";
+        EXPECT_GT(inShade, 0.6);
+        EXPECT_LT(inShade, 0.95) << "the shade is open above";
+    }
+}
+
+TEST(LitCells, AreNoneWhereBouncesFindTheLight) {
+    const auto none = [](const Room& room) {
+        return findLitCells(packed(roomWithLamp(room))).cells.empty();
+    };
+    EXPECT_TRUE(none({.hasShade = false}));
+    EXPECT_TRUE(none({.hasSky = true})) << "it is not known what the sky brings";
+    EXPECT_TRUE(none({.hasSpot = true}));
+    EXPECT_TRUE(findLitCells(packed(scenes::SceneMaker().scene)).cells.empty());
+}
+
+TEST(LitCells, AreLookedForAnewWhenMaterialsChange) {
+    const Scene scene = roomWithLamp({});
+    GpuScene gpu = packed(scene);
+    EXPECT_FALSE(gpu.lit) << "packScene() leaves that to others";
+    gpu.lit = findLitCells(gpu);
+    Estimator estimator;
+    EXPECT_TRUE(aimsBounces(gpu, estimator));
+    estimator.gapProposal = false;
+    EXPECT_FALSE(aimsBounces(gpu, estimator)) << "--gap-proposal off";
+    repackMaterials(gpu, scene, lightSelection({}));
+    EXPECT_FALSE(gpu.lit);
+    EXPECT_FALSE(aimsBounces(gpu, {}));
+}
+
+class AimedBounces : public DeviceTest {
+  protected:
+    AimedBounces() {
+        settings_.area.width = 48, settings_.area.height = 36;
+        settings_.budget.mostSamplesPerPixel = 64;
+        settings_.estimator.maxBounces = 4;
+    }
+
+    /// cells: any, where none are given.
+    Film pictureOf(const Scene& loaded, bool aims, const std::optional<LitCells>& cells = {},
+                   const KernelTuning& tuning = {}) {
+        settings_.estimator.gapProposal = aims;
+        GpuScene scene = packed(loaded, settings_.estimator);
+        scene.lit = cells ? *cells : anyCells(loaded, scene);
+        VulkanBackend backend(testDevice(), scene, view_, settings_, tuning);
+        EXPECT_EQ(backend.features()[SPEC_LIT_CELLS], aims ? scene.lit->cells.size() : 0);
+        return render(backend, settings_);
+    }
+
+    Camera view_ = lookingAt({0.9, 0.6, 0.9}, {-0.5, -0.6, -0.5}, 0.9);
+    RenderSettings settings_;
+};
+
+/// Independent samples, so that variances are right.
+TEST_F(AimedBounces, AnyCellsHaveNoBias) {
+    settings_.estimator.sampler = Sampler::Independent;
+    const auto expectNoBias = [&](const Room& room, const std::string& what) {
+        const Scene scene = roomWithLamp(room);
+        settings_.estimator.seed = 0;
+        const Film plain = pictureOf(scene, false);
+        settings_.estimator.seed = 1;
+        expectAgreement(plain, pictureOf(scene, true), what);
+    };
+    settings_.budget.mostSamplesPerPixel = 512;
+    expectNoBias({.hasShade = false}, "light samples alone find the lamp");
+    settings_.estimator.directLight = DirectLight::MisAll;
+    expectNoBias({.hasShade = false, .lampIsMesh = true}, "bounces find it too");
+    settings_.estimator.branches = 4;
+    expectNoBias({.hasShade = false, .hasPlastic = true}, "plastic, branches");
+}
+
+TEST_F(AimedBounces, HaveLessNoiseAboutALampInAShade) {
+    const Scene scene = roomWithLamp({});
+    const LitCells cells = findLitCells(packed(scene));
+    settings_.budget.mostSamplesPerPixel = 256;
+    const Film plain = pictureOf(scene, false, cells), aimed = pictureOf(scene, true, cells);
+    double before = 0, after = 0;
+    for (size_t i = 0; i < plain.pixels.size(); ++i) {
+        before += plain.pixels[i].m2.y;
+        after += aimed.pixels[i].m2.y;
+    }
+    EXPECT_LT(after, before / 1.5);
+}
+
+TEST_F(AimedBounces, HaveTheSameBytesHoweverTheWorkIsCut) {
+    const Scene scene = roomWithLamp({});
+    settings_.budget.mostSamplesPerPixel = 8;
+    settings_.estimator.branches = 4;
+    const Film whole = pictureOf(scene, true);
+    EXPECT_TRUE(sameStatistics(
+        whole, pictureOf(scene, true, {}, {.scheduler = PathScheduler::Wavefront, .lanes = 100})))
+        << "the other scheduler";
+    EXPECT_TRUE(sameStatistics(whole, pictureOf(scene, true, {}, {.fixedIterations = 3})))
+        << "in short dispatches";
+    EXPECT_TRUE(sameStatistics(whole, pictureOf(scene, true, {}, {.texelFetch = false})))
+        << "from storage buffers";
+}
+
+} // namespace
+} // namespace stromboli

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""rooms_at_night.py FOLDER [ROOMS]: writes rooms that lamps light, for against_mitsuba.py, in Mitsuba 3's syntax.
+
+reading_room and bathroom are the bundled ones without their skies: a lamp in a shade; bulbs in globes of glass, and a
+lamp at the ceiling. With ROOMS, a folder with the rooms of other renderers (each with a mitsuba3.xml), there are also
+classroom, lit by twelve lamps or by the sun alone, and living-room, lit by three bulbs. Each is FOLDER/NAME/scene.xml.
+"""
+import os
+import re
+import sys
+
+LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scene", "library")
+SKY = re.compile(r'<emitter type="(?:constant|directional|envmap|sunsky|sky)".*?</emitter>', re.DOTALL)
+SUN = """<emitter type="directional"><vector name="direction" x="0.865804" y="-0.416766" z="0.276929"/>
+  <rgb name="irradiance" value="60, 54, 42"/></emitter>"""
+
+
+def without_sky(path):
+    """The scene of a file as text, with whole names of files, and no light but that of shapes."""
+    folder = os.path.dirname(os.path.abspath(path)) + "/"
+    with open(path, encoding="utf-8") as file:
+        text = re.sub(r'(name="filename" value=")(?!/)', lambda m: m.group(1) + folder, file.read())
+    return SKY.sub("", text)
+
+
+def shining(shape, radiance):
+    emitter = f'<emitter type="area"><rgb name="radiance" value="{radiance}"/></emitter>'
+    return f'{shape}<bsdf type="diffuse"/>{emitter}</shape>'
+
+
+def panel(x, y, z, half):
+    """Faces down."""
+    place = f'<scale x="{half}" y="{half}"/><rotate x="1" angle="90"/><translate x="{x}" y="{y}" z="{z}"/>'
+    return shining(f'<shape type="rectangle"><transform name="to_world">{place}</transform>', "12, 11, 9")
+
+
+def bulb(x, y, z, radius, radiance):
+    center = f'<point name="center" x="{x}" y="{y}" z="{z}"/><float name="radius" value="{radius}"/>'
+    return shining(f'<shape type="sphere">{center}', radiance)
+
+
+def rooms(others):
+    yield "reading_room_night", without_sky(os.path.join(LIBRARY, "reading_room.xml")), ""
+    yield "bathroom_night", without_sky(os.path.join(LIBRARY, "bathroom.xml")), ""
+    if not others:
+        return
+    classroom = without_sky(os.path.join(others, "classroom", "mitsuba3.xml"))
+    panels = "".join(panel(x, 2.6, z, 0.25) for x in (-2.5, -0.5, 1.5) for z in (-2, 0, 2, 4))
+    yield "classroom_lamps", classroom, panels
+    yield "classroom_sun", classroom, SUN
+    bulbs = bulb(1, 1.5, 2, 0.08, "60, 50, 40") + bulb(2.6, 2.3, 3.2, 0.08, "60, 50, 40") + bulb(0.4, 0.9, 4, 0.06, "90, 70, 50")
+    yield "living-room_bulbs", without_sky(os.path.join(others, "living-room", "mitsuba3.xml")), bulbs
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    for name, scene, lights in rooms(sys.argv[2] if len(sys.argv) == 3 else None):
+        folder = os.path.join(sys.argv[1], name)
+        os.makedirs(folder, exist_ok=True)
+        end = scene.rindex("</scene>")
+        with open(os.path.join(folder, "scene.xml"), "w", encoding="utf-8") as file:
+            file.write(scene[:end] + lights + scene[end:])
+
+
+if __name__ == "__main__":
+    main()
