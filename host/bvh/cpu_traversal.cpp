@@ -305,6 +305,22 @@ TraversalHit closestHit(const WideLayout& layout, const TraversalRay& ray,
     return trace(layout, ray, false, counts);
 }
 
+std::optional<std::array<glm::vec3, 3>> cornersAt(const WideLayout& layout,
+                                                  const TraversalHit& hit) {
+    const gpu::LeafRecord leaf = asLeaf(layout.records[hit.primitive / 2]);
+    if (leaf.primitive & gpu::RECORD_IS_SPHERE) return std::nullopt;
+    const bool isFirst = hit.primitive % 2 == 0;
+    std::array<glm::vec3, 3> corners = {leaf.p0, isFirst ? leaf.p1 : leaf.p2,
+                                        isFirst ? leaf.p2 : leaf.p3};
+    if (hit.placement == gpu::NO_PLACEMENT) return corners;
+    const gpu::PlacementRecord placement = asPlacement(layout.records[hit.placement]);
+    const auto t = std::bit_cast<gpu::TransformRecord>(layout.records[placement.transform]);
+    for (glm::vec3& p : corners)
+        p = {glm::dot(t.toWorld0, glm::vec4(p, 1)), glm::dot(t.toWorld1, glm::vec4(p, 1)),
+             glm::dot(t.toWorld2, glm::vec4(p, 1))};
+    return corners;
+}
+
 bool anyHit(const WideLayout& layout, const TraversalRay& ray, TraversalCounts* counts) {
     return bool(trace(layout, ray, true, counts));
 }

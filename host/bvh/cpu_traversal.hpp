@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -86,6 +87,11 @@ struct TraversalCounts {
 /// and tools (shaders/include/traverse.glsl).
 TraversalHit closestHit(const WideLayout& layout, const TraversalRay& ray,
                         TraversalCounts* counts = nullptr);
+
+/// The corners of the triangle that was hit, in the world, in the order that its barycentric
+/// weights have; nothing of spheres.
+std::optional<std::array<glm::vec3, 3>> cornersAt(const WideLayout& layout,
+                                                  const TraversalHit& hit);
 
 /// Whether anything is hit: whether a segment is blocked.
 bool anyHit(const WideLayout& layout, const TraversalRay& ray, TraversalCounts* counts = nullptr);

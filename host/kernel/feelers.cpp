@@ -5,27 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 
 namespace stromboli {
 namespace {
-
-/// The corners of the triangle that was hit, in the world; nothing of spheres.
-std::optional<std::array<glm::vec3, 3>> cornersAt(const WideLayout& bvh, const TraversalHit& hit) {
-    const gpu::LeafRecord leaf = asLeaf(bvh.records[hit.primitive / 2]);
-    if (leaf.primitive & gpu::RECORD_IS_SPHERE) return std::nullopt;
-    const bool isFirst = hit.primitive % 2 == 0;
-    std::array<glm::vec3, 3> corners = {leaf.p0, isFirst ? leaf.p1 : leaf.p2,
-                                        isFirst ? leaf.p2 : leaf.p3};
-    if (hit.placement == gpu::NO_PLACEMENT) return corners;
-    const gpu::PlacementRecord placement = asPlacement(bvh.records[hit.placement]);
-    const auto t = std::bit_cast<gpu::TransformRecord>(bvh.records[placement.transform]);
-    for (glm::vec3& p : corners)
-        p = {glm::dot(t.toWorld0, glm::vec4(p, 1)), glm::dot(t.toWorld1, glm::vec4(p, 1)),
-             glm::dot(t.toWorld2, glm::vec4(p, 1))};
-    return corners;
-}
 
 Feeler feel(const WideLayout& bvh, const TraversalRay& ray) {
     Feeler f{ray.origin, ray.direction};

@@ -21,7 +21,7 @@ namespace stromboli {
 namespace {
 
 /// Rays of light that are traced; the first few tell whether it is worth to trace the others.
-constexpr size_t kFirstRays = 4096, kRays = 32768;
+constexpr size_t kFirstRays = 1024, kRays = 32768;
 /// A triangle is divided while a cell would have so many of them.
 constexpr double kRaysOfCell = 16;
 constexpr uint32_t kMostLevels = 6;
@@ -53,10 +53,11 @@ struct Corners {
 
 /// Nothing of spheres.
 std::optional<Corners> cornersOf(const WideLayout& bvh, uint32_t place) {
-    const gpu::LeafRecord leaf = asLeaf(bvh.records[place / 2]);
-    if (leaf.primitive & gpu::RECORD_IS_SPHERE) return std::nullopt;
-    const bool isFirst = place % 2 == 0;
-    return Corners{leaf.p0, isFirst ? leaf.p1 : leaf.p2, isFirst ? leaf.p2 : leaf.p3};
+    TraversalHit hit;
+    hit.primitive = place;
+    const auto c = cornersAt(bvh, hit);
+    if (!c) return std::nullopt;
+    return Corners{(*c)[0], (*c)[1], (*c)[2]};
 }
 
 uint32_t lightOf(const WideLayout& bvh, uint32_t place) {
@@ -134,9 +135,9 @@ TraversalRay leave(const Lamp& lamp, Random& random) {
         if (lamp.bothSides && random.uniform() < 0.5f) normal = -normal;
     }
     ray.direction = aboutNormal(normal, random);
-    // Where it starts need not be exact, but it starts outside of the lamp.
-    const double size = glm::length(glm::abs(from)) + lamp.radius + glm::length(lamp.edgeA);
-    ray.origin = glm::vec3(from + 1e-5 * size * normal);
+    // Outside of the lamp, whatever the rounding of its corners and of the origin, of 2^-24 each.
+    const double size = glm::length(from) + lamp.radius + glm::length(lamp.edgeA);
+    ray.origin = glm::vec3(from + 0x1p-20 * size * normal);
     return ray;
 }
 
@@ -297,8 +298,10 @@ LitCells asTable(const Divisions& divisions, size_t places) {
     for (const auto& [place, d] : divisions)
         for (const double x : d.light) {
             const AliasColumn& column = columns[lit.cells.size()];
-            lit.cells.push_back(
-                {float(column.threshold), column.alias, place, float(x / d.area / all)});
+            const double density = x / d.area / all;
+            // In scenes so small or large that a float cannot hold the density nothing is aimed at.
+            if (density > 0 && !std::isnormal(float(density))) return {};
+            lit.cells.push_back({float(column.threshold), column.alias, place, float(density)});
         }
     return lit;
 }
@@ -308,7 +311,8 @@ bool mayAim(const GpuScene& scene) {
         1u << gpu::LIGHT_QUAD | 1u << gpu::LIGHT_SPHERE | 1u << gpu::LIGHT_TRIANGLE;
     const LightTable& lights = scene.lights;
     return lights.count > 0 && (lights.sampledKinds & ~kLamps) == 0 && !lights.hasAmbient &&
-           scene.hasTriangles && !scene.hasPlacements && scene.media == 0 && scene.mostOthers == 0;
+           scene.gapWidth == 0 && scene.hasTriangles && !scene.hasPlacements && scene.media == 0 &&
+           scene.mostOthers == 0;
 }
 
 } // namespace
@@ -330,7 +334,7 @@ LitCells findLitCells(const GpuScene& scene) {
 
 std::vector<Row> litRows(const LitCells& lit) {
     std::vector<Row> rows;
-    rows.reserve(lit.cells.size() + lit.ofPlace.size() / 4);
+    rows.reserve(lit.rowCount());
     for (const gpu::LitCell& cell : lit.cells)
         appendRows(rows, cell);
     for (size_t i = 0; i < lit.ofPlace.size(); i += 4)

@@ -16,11 +16,14 @@ struct GpuScene;
 struct LitCells {
     std::vector<gpu::LitCell> cells; ///< columns of an alias table
     std::vector<uint32_t> ofPlace;   ///< by place in the tree, a whole number of rows; or NO_CELLS
+
+    size_t rowCount() const { return cells.size() + ofPlace.size() / 4; } ///< of litRows()
 };
 
 /// The cells that the light of lamps lands on first, with probabilities in proportion to that
-/// light. Empty where there is light other than that of lamps that rays can meet, or where less
-/// than half of it lands in small places from which it goes on to the rest. Found by tracing light,
+/// light. Empty where there is light other than that of lamps that rays can meet, or a gap behind
+/// the only one, or where less than half of the light lands in small places from which it goes on
+/// to the rest; beside instances, media and mixtures of materials, too. Found by tracing light,
 /// by the same rays in every render. They put no bias on a picture, whatever they are, so that they
 /// need not be exact.
 LitCells findLitCells(const GpuScene& scene);

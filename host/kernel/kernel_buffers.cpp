@@ -110,7 +110,7 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
                          rows});
     }
     if (aimsBounces(scene, estimator))
-        plans.push_back({"lit cells", litRows(*scene.lit).size() * sizeof(Row), rows});
+        plans.push_back({"lit cells", scene.lit->rowCount() * sizeof(Row), rows});
     if (aimsAtPortals(scene, estimator))
         plans.push_back({"portals", kMostPortals * sizeof(gpu::PortalRows), rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});

@@ -48,6 +48,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.branches = s.branches;
     f.gapWidth = scene.gapWidth;
     f.portalShare = float(scene.portals.share);
+    f.litCells = scene.lit ? uint32_t(scene.lit->cells.size()) : 0;
     f.cameraMedium =
         camera.medium == kNoMedium ? gpu::NO_MEDIUM : scene.mediumRow.at(camera.medium);
     return f;

@@ -81,8 +81,8 @@ void arrive(const Given given, inout PathState path) {
     }
     if (!inMedium) path.surface = surfaceAt(path.ray);
     if (inMedium) path.surface = pointInMedium(path.ray, path.filling.medium);
-    if (LIT_CELLS != 0u) {
-        const float weight = aimedWeight(path.aim, path.ray, path.surface.geometric);
+    if (AIMS_BOUNCES) {
+        const float weight = aimedWeight(given.frame, path.aim, path.ray, path.surface.geometric);
         path.throughput *= weight;
         if (weight == 0.0) return;
     }
@@ -174,7 +174,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     path.phase = PHASE_ENDED;
     float mixtureWeight;
     BsdfSample b;
-    if (LIT_CELLS != 0u) b = sampleBsdfOrAim(path.material, path.surface, u, path.aim, mixtureWeight);
+    if (AIMS_BOUNCES) b = sampleBsdfOrAim(given.frame, path.material, path.surface, u, path.aim, mixtureWeight);
     else b = ofMixture(sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight), path.surface);
     if (SEES) path.throughput *= tintOf(path.material, b);
     else path.throughput *= b.weight;
@@ -189,7 +189,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
         if (roulette >= q) return;
         path.throughput *= 1.0 / q;
     }
-    if (GAP_PROPOSAL || LIT_CELLS != 0u) path.throughput *= mixtureWeight;
+    if (GAP_PROPOSAL || AIMS_BOUNCES) path.throughput *= mixtureWeight;
     const bool transmitted = isTransmission(b.lobe);
     path.countsEmission = emissionCounts(given.frame, path, b.lobe);
     path.bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
@@ -213,7 +213,7 @@ void beginSample(const Frame frame, inout PathState path) {
     path.radiance = vec3(0.0);
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
-    if (LIT_CELLS != 0u) path.aim = NO_AIM;
+    if (AIMS_BOUNCES) path.aim = NO_AIM;
     path.departureTable = GUIDES_LIGHT ? GUIDE_NODES : OWN_TABLE;
     path.departurePoint = frame.cameraPosition;
     path.filling = fillingOf(HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM);

@@ -57,7 +57,7 @@ struct PathState {
     Crossing crossing;    ///< of the ray under way, where rays pass borders
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
-    Aim aim;              ///< of the bounce under way, with LIT_CELLS
+    Aim aim;              ///< of the bounce under way, with AIMS_BOUNCES
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
     vec3 departurePoint;  ///< likewise: where its light samples were taken (litPoint()), with PORTALS
     uint departureTable;  ///< likewise: by which its light samples choose tiles of the environment (guide.glsl)

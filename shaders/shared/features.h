@@ -169,8 +169,8 @@
       "portals", count(""), "light samples to the sky that aim at windows") \
     F(63, uint, STRANDS, 0u, tuning.strands > 1 ? tuning.strands : 0, own, \
       "lanes at a pixel", count(""), "strands of a pixel's samples, each with sums of its own (PixelState)") \
-    F(64, uint, LIT_CELLS, 0u, aimsBounces(scene, settings) ? scene.lit->cells.size() : 0, own, \
-      "cells that bounces aim at", count(""), "a second density of bounces, to what lamps light (aimed_bounces.glsl)")
+    F(64, bool, AIMS_BOUNCES, false, aimsBounces(scene, settings), own, \
+      "bounces that aim at what lamps light", flag, "a second density of bounces (aimed_bounces.glsl)")
 
 #define SPEC_COUNT 65
 

@@ -79,8 +79,8 @@
     F(bool, path.crossing.isUntold, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
     F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
-    F(uint, path.aim.place, LIT_CELLS != 0u, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
-    F(float, path.aim.bsdfPdf, LIT_CELLS != 0u, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(uint, path.aim.place, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(float, path.aim.bsdfPdf, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.departurePoint, PORTALS != 0u, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.departureTable, GUIDES_LIGHT, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \

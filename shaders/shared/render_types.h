@@ -35,7 +35,8 @@ struct Frame {
     uint cameraMedium; ///< where camera rays begin: the first row of a medium, or NO_MEDIUM
     uint notedSamples; ///< of each pixel, where light samples are noted (guide_notes.glsl)
     float portalShare; ///< of light samples to the sky that aim at portals (lights/portals.glsl)
-    uint unused0, unused1, unused2;
+    uint litCells; ///< that bounces aim at, with AIMS_BOUNCES (aimed_bounces.glsl)
+    uint unused0, unused1;
 };
 SHARED_ROWS(Frame, 10);
 SHARED_OFFSET(Frame, nearDistance, 64);
