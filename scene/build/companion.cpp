@@ -1,13 +1,17 @@
 #include "scene/build/companion.hpp"
 
 #include "scene/build/folder.hpp"
+#include "scene/build/percent_decoding.hpp"
 #include "scene/build/shortfall.hpp"
+#include "scene/build/unicode.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <string>
 #include <system_error>
+#include <utility>
 
 namespace stromboli::build {
 namespace {
@@ -47,7 +51,8 @@ std::optional<fs::path> withOtherCapitals(const fs::path& folder, const fs::path
         std::optional<fs::path> match;
         std::error_code error;
         int entries = 0;
-        fs::directory_iterator entry(folder.empty() ? "." : folder / found, error);
+        const fs::path searched = folder / found;
+        fs::directory_iterator entry(searched.empty() ? "." : searched, error);
         for (; !error && entry != fs::directory_iterator() && ++entries < kMostEntries;
              entry.increment(error)) {
             const fs::path name = entry->path().filename();
@@ -66,9 +71,7 @@ std::string quoted(std::string_view name) {
     return fmt::format("'{}{}'", name.substr(0, longest), name.size() > longest ? "..." : "");
 }
 
-} // namespace
-
-Companion companion(const fs::path& folder, std::string_view written) {
+Companion companionNamed(const fs::path& folder, std::string_view written) {
     // A zero byte would end the name for the system and not for the checks.
     if (written.empty() || written.find('\0') != std::string_view::npos) return {};
     const auto otherCapitals = [&](const fs::path& path) {
@@ -96,6 +99,43 @@ Companion companion(const fs::path& folder, std::string_view written) {
                 "the file of the same name beside it is taken"};
     if (const std::optional<fs::path> other = withOtherCapitals(folder, name))
         return otherCapitals(*other);
+    return {};
+}
+
+/// The endings of pictures that are read.
+constexpr std::string_view kPictureEndings[] = {".png", ".jpg", ".jpeg", ".webp", ".tga",
+                                                ".bmp", ".gif", ".exr",  ".hdr"};
+
+} // namespace
+
+Companion companion(const fs::path& folder, std::string_view written) {
+    Companion found = companionNamed(folder, written);
+    if (found.path) return found;
+    const std::pair<std::string, std::string_view> others[] = {
+        {percentDecoded(written), "is written as in a URI"},
+        {utf8WithLatin1(written), "is no UTF-8 but Latin-1"}};
+    for (const auto& [reading, what] : others) {
+        if (reading == written) continue;
+        Companion other = companionNamed(folder, reading);
+        if (!other.path) continue;
+        if (!other.problem.empty()) return other;
+        return {other.path, fmt::format("{} {}", quoted(written), what), "it is read so"};
+    }
+    return {};
+}
+
+Companion pictureCompanion(const fs::path& folder, std::string_view written) {
+    Companion found = companion(folder, written);
+    if (found.path) return found;
+    std::string name(written);
+    const size_t dot = name.find_last_of('.');
+    if (dot != std::string::npos && name.find_first_of("/\\", dot) == std::string::npos)
+        name.resize(dot);
+    if (name.empty()) return {};
+    for (const std::string_view ending : kPictureEndings)
+        if (const Companion other = companion(folder, name + std::string(ending)); other.path)
+            return {other.path, fmt::format("{} is not there", quoted(written)),
+                    "the picture of the same name with another ending is taken"};
     return {};
 }
 

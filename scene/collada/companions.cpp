@@ -125,7 +125,7 @@ std::optional<Companion> Companions::read(std::string_view reference) const {
     if (name.empty() || name == "." || name == "..") return std::nullopt;
     std::optional<std::string> bytes = bytesOf(name);
     if (!bytes && !archive_) {
-        const build::Companion other = build::companion(folder_, path.generic_string());
+        const build::Companion other = build::pictureCompanion(folder_, path.generic_string());
         if (!other.path) return std::nullopt;
         return Companion{build::readFile(*other.path), other.problem, other.reading};
     }

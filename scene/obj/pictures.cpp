@@ -48,10 +48,10 @@ build::Companion Pictures::fileOf(const Map& map) const {
     if (!own.empty() && own != ".") {
         std::string name = map.name;
         std::replace(name.begin(), name.end(), '\\', '/');
-        beside = build::companion(folder_, (own / name).generic_string());
+        beside = build::pictureCompanion(folder_, (own / name).generic_string());
         if (beside.path && beside.problem.empty()) return beside;
     }
-    build::Companion file = build::companion(folder_, map.name);
+    build::Companion file = build::pictureCompanion(folder_, map.name);
     const bool isBetter = file.path && (file.problem.empty() || !beside.path);
     return isBetter ? file : beside;
 }

@@ -238,7 +238,7 @@ std::optional<uint32_t> PlyReader::picture() {
     if (header_.pictures.size() > 1)
         builder_.report().forgive(place, fmt::format("there are {}", header_.pictures.size()),
                                   "the first picture is on all faces");
-    const build::Companion file = build::companion(file_.parent_path(), written);
+    const build::Companion file = build::pictureCompanion(file_.parent_path(), written);
     if (!file.path) {
         builder_.report().replace(place, build::Shortfall::Picture,
                                   fmt::format("'{}' is not in the file's folder", written));
