@@ -70,6 +70,13 @@ std::optional<double> realOrNanIn(std::string_view word) {
     return std::nullopt;
 }
 
+std::optional<double> realWithCommaIn(std::string_view word) {
+    if (std::count(word.begin(), word.end(), ',') != 1) return std::nullopt;
+    std::string pointed(word);
+    std::replace(pointed.begin(), pointed.end(), ',', '.');
+    return realIn(pointed);
+}
+
 std::optional<int64_t> integerIn(std::string_view word) {
     return inRange<int64_t>(withoutPlus(word));
 }

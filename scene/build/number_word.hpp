@@ -17,6 +17,8 @@ std::optional<double> realIn(std::string_view word);
 /// A finite number, or NaN for the words by which programs write what is no number or not finite:
 /// nan, -nan(ind), inf, 1.#QNAN and the like.
 std::optional<double> realOrNanIn(std::string_view word);
+/// A number as above whose decimal point is written as a comma, as in some countries.
+std::optional<double> realWithCommaIn(std::string_view word);
 /// A whole number without a point, with one sign at most.
 std::optional<int64_t> integerIn(std::string_view word);
 /// A whole number below 2^32, without a sign.

@@ -14,9 +14,30 @@ Materials::Materials(const std::filesystem::path& file, build::SceneBuilder& bui
     : folder_(file.parent_path()), ownLibrary_(file.stem().string() + ".mtl"), builder_(builder),
       pictures_(folder_, builder) {}
 
+namespace {
+
+std::string_view withoutQuotes(std::string_view name) {
+    const bool isQuoted = name.size() > 2 && name.starts_with('"') && name.ends_with('"');
+    return isQuoted ? name.substr(1, name.size() - 2) : name;
+}
+
+/// What names have in common that stand for one material: no comment behind them, no quotation
+/// marks, small letters.
+std::string coreOf(std::string_view name) {
+    const size_t comment = name.find(" #");
+    if (comment != std::string_view::npos && comment > 0) name = name.substr(0, comment);
+    while (name.ends_with(' ') || name.ends_with('\t'))
+        name.remove_suffix(1);
+    return inSmallLetters(withoutQuotes(name));
+}
+
+} // namespace
+
 /// The specification separates names by spaces; programs write one name, with spaces in it.
 void Materials::addLibraries(const Statements& statement) {
-    if (addLibrary(statement.rest(), statement.place())) return;
+    if (addLibrary(statement.rest(), statement.place()) ||
+        addMeantLibrary(statement.rest(), statement.place()))
+        return;
     bool foundAll = true;
     for (Words words(statement.rest()); !words.atEnd();)
         foundAll = addLibrary(words.next(), statement.place()) && foundAll;
@@ -46,6 +67,21 @@ bool Materials::addLibrary(std::string_view name, const build::FilePlace& where)
     return true;
 }
 
+/// Programs write names in quotation marks, as URIs, or without their ending.
+bool Materials::addMeantLibrary(std::string_view written, const build::FilePlace& where) {
+    std::string name(withoutQuotes(written));
+    for (const std::string_view scheme : {"file://", "file:"})
+        if (name.starts_with(scheme)) name.erase(0, scheme.size());
+    if (name.empty()) return false;
+    for (const std::string& reading : {name, name + ".mtl"}) {
+        if (reading == written || !addLibrary(reading, where)) continue;
+        builder_.report().forgive(where, fmt::format("'{}' is not there", shortened(written)),
+                                  fmt::format("'{}' is taken", shortened(reading)));
+        return true;
+    }
+    return false;
+}
+
 /// Files get other names, and the one that an OBJ file names is not there then.
 void Materials::addOwnLibrary(const build::FilePlace& where) {
     const std::string name = std::exchange(ownLibrary_, "");
@@ -72,8 +108,26 @@ const BoundMaterial& Materials::unknown(uint32_t name) {
     return grey->second;
 }
 
+/// The stated name that a use stands for; of several ones the first of the alphabet.
+std::optional<std::string> Materials::meant(const Use& use) {
+    const std::string core = coreOf(use.name);
+    std::optional<std::string> found;
+    for (const auto& [name, material] : stated_)
+        if (coreOf(name) == core && (!found || name < *found)) found = name;
+    if (found)
+        builder_.report().forgive(
+            use.place,
+            fmt::format("there is no material '{}', but '{}'", shortened(use.name),
+                        shortened(*found)),
+            "names are compared without quotation marks, comments and capitals");
+    return found;
+}
+
 const BoundMaterial& Materials::of(std::optional<uint32_t> name) {
     if (name && !stated_.contains(uses_[*name].name)) addOwnLibrary(uses_[*name].place);
+    if (name && !stated_.contains(uses_[*name].name))
+        if (std::optional<std::string> found = meant(uses_[*name]))
+            uses_[*name].name = std::move(*found);
     if (name && !stated_.contains(uses_[*name].name)) {
         const Use& use = uses_[*name];
         if (builder_.conventions().onUnknownMaterial) return unknown(*name);

@@ -33,7 +33,13 @@ class Materials {
     const BoundMaterial& of(std::optional<uint32_t> name);
 
   private:
+    struct Use {
+        std::string name;
+        build::FilePlace place; ///< of its first usemtl
+    };
     bool addLibrary(std::string_view name, const build::FilePlace& where);
+    bool addMeantLibrary(std::string_view name, const build::FilePlace& where);
+    std::optional<std::string> meant(const Use& use);
     void addOwnLibrary(const build::FilePlace& where);
     const BoundMaterial& unknown(uint32_t name);
     BoundMaterial make(const MtlMaterial& stated);
@@ -44,10 +50,6 @@ class Materials {
     Pictures pictures_;
     std::unordered_map<std::string, MtlMaterial> stated_;
     std::vector<std::string> libraries_; ///< those that have been read
-    struct Use {
-        std::string name;
-        build::FilePlace place; ///< of its first usemtl
-    };
     std::vector<Use> uses_;
     std::unordered_map<std::string, uint32_t> useNumbers_;
     std::unordered_map<uint32_t, BoundMaterial> made_;

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -90,13 +89,6 @@ auto find(const Table& table, std::string_view name) {
     return found == std::end(table) ? nullptr : &*found;
 }
 
-std::string inSmallLetters(std::string_view text) {
-    std::string small(text);
-    std::transform(small.begin(), small.end(), small.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return small;
-}
-
 class MtlReader {
   public:
     MtlReader(const std::filesystem::path& file, build::Report& report)
@@ -175,11 +167,21 @@ class MtlReader {
     }
 
     /// Scenes hold these numbers in single precision.
-    double number(Words& words) const {
-        const double value = statements_.number(words);
+    double number(Words& words) {
+        const double value = numberWithComma(words);
         if (!std::isfinite(float(value)))
             statements_.fail("has a number beyond the range of single precision");
         return value;
+    }
+
+    double numberWithComma(Words& words) {
+        Words ahead = words;
+        const std::optional<double> value = build::realWithCommaIn(ahead.next());
+        if (!value) return statements_.number(words);
+        report_.forgive(statements_.place(), "a number has a decimal comma",
+                        "it is read as a decimal point");
+        words = ahead;
+        return *value;
     }
 
     void readNumber(const NumberKeyword& keyword, std::optional<double>& result) {
@@ -264,6 +266,8 @@ class MtlReader {
         } else if (option == "-mm") {
             const double base = number(words), gain = number(words);
             if (base != 0 || gain != 1) ignoreOption(option);
+        } else if (option == "-colorspace") {
+            if (inSmallLetters(words.next()) != "srgb") ignoreOption(option);
         } else if (option == "-boost" || option == "-texres" || option == "-blendu" ||
                    option == "-blendv" || option == "-cc" || option == "-type") {
             words.next();

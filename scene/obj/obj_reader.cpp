@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <system_error>
+#include <utility>
 
 namespace stromboli::obj {
 namespace {
@@ -33,16 +36,16 @@ ObjReader::ObjReader(const std::filesystem::path& file, build::SceneBuilder& bui
 
 void ObjReader::read() {
     while (statements_.next())
-        readStatement();
+        readStatement(statements_.keyword());
     if (lists_.mesh.positions.empty())
         build::FilePlace{file_.string(), 0, ""}.fail(
             "has no vertex (a line 'v X Y Z'): it is empty, or no OBJ file");
+    takePaint();
     finishColors();
     groups_.place(file_.string(), lists_, materials_, builder_);
 }
 
-void ObjReader::readStatement() {
-    const std::string_view keyword = statements_.keyword();
+void ObjReader::readStatement(std::string_view keyword) {
     build::Report& report = builder_.report();
     if (keyword == "v") return readPosition();
     if (keyword == "vn") return readNormal();
@@ -59,9 +62,16 @@ void ObjReader::readStatement() {
     if (keyword == "s") return smoothing_.enter(Words(statements_.values()).next());
     if (keyword == "l" || keyword == "p")
         return report.ignore("lines and points ('l', 'p')", "only surfaces are shown");
+    if (keyword == kPaintKeyword) return readPaint();
     if (isObjKeyword(keyword))
         return report.ignore(fmt::format("'{}'", keyword),
                              "of polygons, their groups and materials alone are read");
+    const std::string small = inSmallLetters(keyword);
+    if (small != keyword && isObjKeyword(small)) {
+        report.forgive(statements_.place(), "has other capitals than the format has",
+                       "it is read in small letters");
+        return readStatement(small);
+    }
     report.forgive(statements_.place(), "is no statement of the format", "the line is skipped");
 }
 
@@ -73,15 +83,11 @@ double ObjReader::number(Words& words) {
         words = ahead;
         return *value;
     }
-    std::string word(stated);
-    if (std::count(word.begin(), word.end(), ',') == 1) {
-        std::replace(word.begin(), word.end(), ',', '.');
-        if (const std::optional<double> value = build::realIn(word)) {
-            builder_.report().forgive(statements_.place(), "a number has a decimal comma",
-                                      "it is read as a decimal point");
-            words = ahead;
-            return *value;
-        }
+    if (const std::optional<double> value = build::realWithCommaIn(stated)) {
+        builder_.report().forgive(statements_.place(), "a number has a decimal comma",
+                                  "it is read as a decimal point");
+        words = ahead;
+        return *value;
     }
     return statements_.numberOrNan(words);
 }
@@ -128,6 +134,32 @@ void ObjReader::readPosition() {
     lists_.colors.resize(lists_.mesh.positions.size(), glm::vec3(1));
     if (hasColor) lists_.colors.back() = glm::vec3(more[0], more[1], more[2]);
     if (!firstColor_) firstColor_ = statements_.place();
+}
+
+/// ZBrush writes what is painted on vertices into comments: eight hexadecimal digits for each
+/// vertex in turn, two of a mask and two each of red, green and blue.
+void ObjReader::readPaint() {
+    constexpr size_t kDigits = 8;
+    const std::string_view text = statements_.rest();
+    for (size_t at = 0; at + kDigits <= text.size(); at += kDigits) {
+        uint32_t bits = 0;
+        const char* const first = text.data() + at;
+        const auto [end, error] = std::from_chars(first, first + kDigits, bits, 16);
+        if (error != std::errc() || end != first + kDigits)
+            return builder_.report().replace(statements_.place(), build::Shortfall::Attribute,
+                                             "has other characters than hexadecimal digits");
+        paint_.push_back(glm::vec3(bits >> 16 & 0xFF, bits >> 8 & 0xFF, bits & 0xFF) / 255.f);
+    }
+}
+
+/// Colours that the vertices state themselves come first.
+void ObjReader::takePaint() {
+    if (paint_.empty() || !lists_.colors.empty() || !builder_.conventions().textures) return;
+    builder_.report().assume("the paint of ZBrush (#MRGB) is sRGB; it multiplies the material's "
+                             "colour");
+    paint_.resize(lists_.mesh.positions.size(), glm::vec3(1));
+    lists_.colors = std::move(paint_);
+    firstColor_ = statements_.place();
 }
 
 /// Programs for scans write fractions or bytes: bytes where all are whole numbers and some are

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -22,7 +23,7 @@ class ObjReader {
     void read();
 
   private:
-    void readStatement();
+    void readStatement(std::string_view keyword);
     double number(Words& words);
     glm::dvec3 readVector(Words& words, build::Shortfall kind);
     void readPosition();
@@ -33,6 +34,8 @@ class ObjReader {
     uint32_t index(std::string_view corner, std::string_view word, size_t count, const char* what);
     void makeUniform(std::vector<build::Corner>& corners);
     void useMaterial();
+    void readPaint();
+    void takePaint();
     void finishColors();
     void requireMemory();
 
@@ -44,6 +47,7 @@ class ObjReader {
     Materials materials_;
     build::PolygonCutter polygons_;
     Smoothing smoothing_;
+    std::vector<glm::vec3> paint_; ///< of ZBrush, of the first vertices
     std::optional<build::FilePlace> firstColor_;
     std::string object_, group_;
     std::vector<build::Corner> corners_; ///< of the present face

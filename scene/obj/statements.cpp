@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -35,6 +36,9 @@ std::string inUtf8(const std::string& file, std::string text) {
         return std::move(*converted);
     }
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    // How programs of other times end or fill up a file.
+    while (text.ends_with('\0') || text.ends_with('\x1A'))
+        text.pop_back();
     return text;
 }
 
@@ -86,8 +90,10 @@ bool Statements::next() {
             line = joined_;
         }
         Words words(line);
-        if (words.atEnd() || words.rest().starts_with('#')) continue;
+        if (words.atEnd()) continue;
+        const bool isComment = words.rest().starts_with('#');
         keyword_ = words.next();
+        if (isComment && keyword_ != kPaintKeyword) continue;
         rest_ = words.rest();
         return true;
     }
@@ -118,6 +124,13 @@ double Statements::number(Words& words) const {
 
 bool isObjKeyword(std::string_view keyword) {
     return std::find(std::begin(kKeywords), std::end(kKeywords), keyword) != std::end(kKeywords);
+}
+
+std::string inSmallLetters(std::string_view text) {
+    std::string small(text);
+    std::transform(small.begin(), small.end(), small.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return small;
 }
 
 std::string shortened(std::string_view word) {

@@ -24,7 +24,8 @@ class Words {
 };
 
 /// The statements of an OBJ or MTL file: a keyword and what follows it on its line, which a
-/// backslash at the end continues on the next one. Empty lines and comments are no statements.
+/// backslash at the end continues on the next one. Empty lines and comments are no statements, but
+/// those of kPaintKeyword are.
 class Statements {
   public:
     /// `text` is UTF-8, or anything with ASCII in it, or UTF-16. Throws SceneError if it is damaged
@@ -57,6 +58,12 @@ class Statements {
     int nextLine_ = 1, line_ = 0;
     std::string_view keyword_, rest_;
 };
+
+/// A comment to other programs, in which ZBrush writes colours of vertices.
+inline constexpr std::string_view kPaintKeyword = "#MRGB";
+
+/// Keywords and names in the letters by which they are compared.
+std::string inSmallLetters(std::string_view text);
 
 /// True for the keywords of the format, those that are not read included.
 bool isObjKeyword(std::string_view keyword);

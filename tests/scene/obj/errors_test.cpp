@@ -47,6 +47,22 @@ TEST(ObjErrors, DecimalCommasAreReadAsPoints) {
     EXPECT_EQ(scene.report.forgiven.size(), 1u);
 }
 
+TEST(ObjErrors, KeywordsMayHaveOtherCapitals) {
+    const Scene scene = loadObjText("V 0 0 0\nv 1 0 0\nv 1 1 0\nF 1 2 3\n");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven, testing::ElementsAre(HasSubstr("in small letters")));
+}
+
+/// Files of other times end with a character that says so, or are filled up with zeros.
+TEST(ObjErrors, WhatFillsUpAFileIsNoStatement) {
+    const std::string text = kTriangle + "f 1 2 3\n";
+    for (const std::string& end : {std::string("\x1A"), std::string(9, '\0')}) {
+        const Scene scene = loadObjText(text + end);
+        EXPECT_EQ(scene.triangles.size(), 1u);
+        EXPECT_THAT(scene.report.forgiven, testing::IsEmpty());
+    }
+}
+
 TEST(ObjErrors, TextureCoordinatesThatAreNoNumbersAre0) {
     for (const char* texcoord : {"vt 1e300 0\n", "vt u v\n", "vt\n", "vt nan 0\n"}) {
         const Scene scene = loadObjText(kTriangle + texcoord + "f 1/1 2/1 3/1\n");

@@ -71,6 +71,25 @@ TEST(ObjGeometry, ColoursOfVerticesAreSrgb) {
     EXPECT_EQ(scene.attributes[scene.attributeCorners[0][2]].color, glm::vec4(1));
 }
 
+/// A mask, red, green and blue for each vertex, 64 vertices a line at most.
+TEST(ObjGeometry, PaintOfZBrushIsColoursOfVertices) {
+    const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (const std::string paint :
+         {"#MRGB FFff0080FFff0080ff00FF00\n", "#MRGB FFff0080FFff0080\n#MRGB ff00FF00\n"}) {
+        const Scene scene = loadObjText(mesh + paint + "f 1 2 3\n");
+        ASSERT_EQ(scene.attributeCorners.size(), 1u);
+        const glm::vec4 color = scene.attributes[scene.attributeCorners[0][1]].color;
+        EXPECT_EQ(color.x, 1);
+        EXPECT_EQ(color.y, 0);
+        EXPECT_NEAR(color.z, 0.215861, 1e-5); // ((128 / 255 + 0.055) / 1.055)^2.4
+        EXPECT_EQ(scene.attributes[scene.attributeCorners[0][2]].color, glm::vec4(0, 1, 0, 1));
+        EXPECT_THAT(scene.report.assumed, Contains(HasSubstr("ZBrush")));
+    }
+    EXPECT_THAT(loadObjText(mesh + "#MRGB 0x12345678\nf 1 2 3\n").report.forgiven,
+                ElementsAre(HasSubstr("hexadecimal digits")));
+    EXPECT_TRUE(loadObjText(mesh + "# MRGB FFff0080\nf 1 2 3\n").attributes.empty());
+}
+
 TEST(ObjGeometry, ObjectsAndGroupsAreInstances) {
     const Scene scene = loadObjText(kSquare + "f 1 2 3\no chair\nf 1 2 3\ng seat\nf 1 2 3\n"
                                               "g back\nf 1 2 3\ng seat\nf 1 3 4\no table\nf 1 2 3\n"

@@ -10,6 +10,7 @@ namespace stromboli::test {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -307,6 +308,51 @@ TEST_F(ObjMaterials, LibrariesAndNames) {
     EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("none.mtl b.mtl' is not in")));
     EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("there is no material 'c'")));
     EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("of this name is there already")));
+}
+
+/// `usemtl` and `newmtl` are written by different programs, or by hand.
+TEST_F(ObjMaterials, NamesAreMeantWithoutQuotesCommentsAndCapitals) {
+    const std::string mesh = "v 0 0 0\nv 1 0 0\nv 1 1 0\nmtllib m.mtl\n";
+    folder_.write("m.mtl", "newmtl Wood\nKd 1 0 0\n");
+    for (const char* name : {"wood", "\"Wood\"", "Wood # of oak"}) {
+        const std::string text = mesh + "usemtl " + name + "\nf 1 2 3\n";
+        const Scene scene = folder_.load(text);
+        EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(1, 0, 0)) << name;
+        EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("but 'Wood'"))) << name;
+        SceneConventions strict;
+        strict.strict = true;
+        EXPECT_THROW(folder_.load(text, strict), SceneError) << name;
+    }
+    // A name that is there as it is written is never another one.
+    folder_.write("m.mtl", "newmtl Wood\nKd 1 0 0\nnewmtl wood\nKd 0 1 0\n");
+    EXPECT_EQ(folder_.load(mesh + "usemtl wood\nf 1 2 3\n").materials.at(0).albedo,
+              glm::vec3(0, 1, 0));
+}
+
+TEST_F(ObjMaterials, LibrariesMayBeQuotedUrisOrWithoutTheirEnding) {
+    folder_.write("m.mtl", "newmtl a\nKd 1 0 0\n");
+    for (const char* name : {"\"m.mtl\"", "m", "file:m.mtl", "file:///home/me/m.mtl"}) {
+        const Scene scene = folder_.load(std::string("v 0 0 0\nv 1 0 0\nv 1 1 0\nmtllib ") + name +
+                                         "\nusemtl a\nf 1 2 3\n");
+        EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(1, 0, 0)) << name;
+        EXPECT_THAT(scene.report.forgiven, Not(IsEmpty())) << name;
+    }
+}
+
+TEST_F(ObjMaterials, DecimalCommasAreReadAsPoints) {
+    const Scene scene = load("Kd 0,25 0,5 0,75\nd 0,5\n");
+    EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(0.25f, 0.5f, 0.75f));
+    EXPECT_EQ(scene.materials.at(0).opacity, 0.5f);
+    EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("decimal comma")));
+}
+
+TEST_F(ObjMaterials, PicturesMayHaveAColourSpaceOrAnotherEnding) {
+    EXPECT_EQ(load("map_Kd -colorspace sRGB mask.png\n").textures.size(), 1u);
+    EXPECT_THAT(load("map_Kd -colorspace linear mask.png\n").report.ignored,
+                Contains(HasSubstr("-colorspace")));
+    const Scene scene = load("map_Kd mask.tif\n");
+    EXPECT_EQ(scene.textures.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("another ending")));
 }
 
 } // namespace
