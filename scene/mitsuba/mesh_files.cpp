@@ -64,6 +64,7 @@ FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
                      std::string_view attribute, std::optional<bool> areSrgb) {
     PlyAttribute colors;
     colors.areSrgb = areSrgb;
+    colors.mayBeBytes = false; // Mitsuba takes them as they are
     constexpr std::string_view kOfFaces = "face_", kOfVertices = "vertex_";
     colors.isOfFaces = attribute.starts_with(kOfFaces);
     if (colors.isOfFaces) colors.name = attribute.substr(kOfFaces.size());

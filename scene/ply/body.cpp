@@ -44,20 +44,37 @@ build::FilePlace Body::place() const {
     return {file_, encoding_ == Encoding::Ascii ? line_ : 0, name};
 }
 
-void Body::begin(const Element& kind) {
-    kind_ = &kind;
-    number_ = 0;
+uint64_t Body::mostOf(const Element& kind) const {
     uint64_t least = 0;
     for (const Property& property : kind.properties)
         least += encoding_ == Encoding::Ascii ? 2 // a digit and what separates it from the next one
                                               : sizeOf(property.countType.value_or(property.type));
     // The last number of a file needs nothing after it.
     const uint64_t left = bytesLeft() + (encoding_ == Encoding::Ascii ? 1 : 0);
-    if (least > 0 && kind.count > left / least)
-        build::FilePlace{file_, 0, kind.name.substr(0, 60)}.fail(fmt::format(
-            "the header says that there are {}, but {} bytes are left, and each takes {} "
-            "at least",
-            kind.count, bytesLeft(), least));
+    return least > 0 ? left / least : std::numeric_limits<uint64_t>::max();
+}
+
+void Body::failAtEnd(const std::string& message) const {
+    try {
+        place().fail(message);
+    } catch (const SceneError& error) {
+        throw Truncated(error);
+    }
+}
+
+void Body::begin(const Element& kind) {
+    kind_ = &kind;
+    number_ = 0;
+    const uint64_t most = mostOf(kind);
+    if (kind.count <= most) return;
+    try {
+        build::FilePlace{file_, 0, kind.name.substr(0, 60)}.fail(
+            fmt::format("the header says that there are {}, but {} bytes are left, which hold {} "
+                        "at most",
+                        kind.count, bytesLeft(), most));
+    } catch (const SceneError& error) {
+        throw Truncated(error);
+    }
 }
 
 void Body::beginElement(uint64_t number) {
@@ -92,7 +109,7 @@ std::string_view Body::word() {
 
 double Body::textNumber() {
     const std::string_view text = word();
-    if (text.empty()) fail("the file ends where a number is expected");
+    if (text.empty()) failAtEnd("the file ends where a number is expected");
     if (const std::optional<double> value = build::realIn(text)) return *value;
     if (!isNotFinite(text))
         report_.replace(place(), build::Shortfall::Vertex,
@@ -102,7 +119,7 @@ double Body::textNumber() {
 
 double Body::binaryNumber(ScalarType type) {
     const size_t size = sizeOf(type);
-    if (bytesLeft() < size) fail("the file ends where a number is expected");
+    if (bytesLeft() < size) failAtEnd("the file ends where a number is expected");
     const char* bytes = bytes_.data() + at_;
     at_ += size;
     const bool isLittle = std::endian::native == std::endian::little;
@@ -124,6 +141,10 @@ double Body::binaryNumber(ScalarType type) {
         return fromBytes<float>(bytes, reverse);
     case ScalarType::Float64:
         return fromBytes<double>(bytes, reverse);
+    case ScalarType::Int64:
+        return fromBytes<int64_t>(bytes, reverse);
+    case ScalarType::UInt64:
+        return fromBytes<uint64_t>(bytes, reverse);
     }
     return 0;
 }
@@ -139,8 +160,8 @@ uint64_t Body::listLength(const Property& property) {
     const uint64_t least = encoding_ == Encoding::Ascii ? 2 : sizeOf(property.type);
     const uint64_t left = bytesLeft() + (encoding_ == Encoding::Ascii ? 1 : 0);
     if (length > double(left / least))
-        fail(fmt::format("the list '{}' has {} numbers, but {} bytes are left",
-                         property.name.substr(0, 60), length, bytesLeft()));
+        failAtEnd(fmt::format("the list '{}' has {} numbers, but {} bytes are left",
+                              property.name.substr(0, 60), length, bytesLeft()));
     return uint64_t(length);
 }
 

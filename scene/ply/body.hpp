@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/core/error.hpp"
 #include "scene/build/report.hpp"
 #include "scene/ply/header.hpp"
 
@@ -8,6 +9,12 @@
 #include <string_view>
 
 namespace stromboli::ply {
+
+/// The file ends before all that its header promises: what there is may be shown.
+class Truncated : public SceneError {
+  public:
+    explicit Truncated(const SceneError& error) : SceneError(error) {}
+};
 
 /// Takes the numbers of a file's elements one after the other.
 class Body {
@@ -18,14 +25,17 @@ class Body {
         : file_(file), bytes_(bytes), encoding_(header.encoding), report_(report), at_(header.end),
           line_(header.lines + 1) {}
 
-    /// Before the first element of a kind: throws SceneError if the bytes that are left cannot hold
+    /// Before the first element of a kind: throws Truncated if the bytes that are left cannot hold
     /// as many as the header says, so that memory can be taken for them.
     void begin(const Element& kind);
+    /// How many of a kind the bytes that are left may hold at most.
+    uint64_t mostOf(const Element& kind) const;
     /// Before and after each one.
     void beginElement(uint64_t number);
     void endElement();
 
-    /// NaN and infinity are returned as they are.
+    /// NaN and infinity are returned as they are. Throws Truncated at the end of the file, as the
+    /// others do.
     double number(ScalarType type);
     /// The length of a list, of which the bytes that are left can hold as many elements.
     uint64_t listLength(const Property& property);
@@ -35,6 +45,7 @@ class Body {
     build::FilePlace place() const;
 
   private:
+    [[noreturn]] void failAtEnd(const std::string& message) const;
     uint64_t bytesLeft() const { return bytes_.size() - at_; }
     std::string_view word();
     double textNumber();

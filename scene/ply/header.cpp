@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace stromboli::ply {
 namespace {
@@ -15,28 +16,40 @@ struct TypeName {
     size_t size;
 };
 constexpr TypeName kTypes[] = {
-    {"char", "int8", ScalarType::Int8, 1},        {"uchar", "uint8", ScalarType::UInt8, 1},
-    {"short", "int16", ScalarType::Int16, 2},     {"ushort", "uint16", ScalarType::UInt16, 2},
-    {"int", "int32", ScalarType::Int32, 4},       {"uint", "uint32", ScalarType::UInt32, 4},
-    {"float", "float32", ScalarType::Float32, 4}, {"double", "float64", ScalarType::Float64, 8}};
+    {"char", "int8", ScalarType::Int8, 1},
+    {"uchar", "uint8", ScalarType::UInt8, 1},
+    {"short", "int16", ScalarType::Int16, 2},
+    {"ushort", "uint16", ScalarType::UInt16, 2},
+    {"int", "int32", ScalarType::Int32, 4},
+    {"uint", "uint32", ScalarType::UInt32, 4},
+    {"float", "float32", ScalarType::Float32, 4},
+    {"double", "float64", ScalarType::Float64, 8},
+    // Not in the format; programs that know no other whole numbers write them.
+    {"int64", "long", ScalarType::Int64, 8},
+    {"uint64", "ulong", ScalarType::UInt64, 8}};
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string shortened(std::string_view word) {
     return std::string(word.substr(0, 60));
 }
 
-/// Reads the lines of a header. They end in "\n", "\r\n" or "\r", as the first of them does.
+/// Reads the lines of a header. They end in "\n", with or without "\r" before it, or in "\r", as
+/// the first of them does.
 class HeaderReader {
   public:
     HeaderReader(const std::string& file, std::string_view bytes, build::Report& report)
         : file_(file), bytes_(bytes), report_(report) {}
 
     Header read() {
+        if (bytes_.starts_with(kByteOrderMark)) header_.end = kByteOrderMark.size();
         const size_t end = bytes_.find_first_of("\r\n");
-        if (end == std::string_view::npos || bytes_.substr(0, end) != "ply") {
+        if (end == std::string_view::npos ||
+            bytes_.substr(header_.end, end - header_.end) != "ply") {
             header_.lines = 1;
             fail("is no PLY file: expected 'ply' and the end of the line");
         }
-        newline_ = bytes_[end] == '\n' ? "\n" : bytes_.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
+        newline_ = bytes_[end] == '\n' || bytes_.substr(end, 2) == "\r\n" ? '\n' : '\r';
         takeLine();
         while (readStatement(takeLine())) {
         }
@@ -54,7 +67,7 @@ class HeaderReader {
         if (end == std::string_view::npos)
             fail("the file ends within the header: expected a line 'end_header'");
         std::string_view line = bytes_.substr(header_.end, end - header_.end);
-        header_.end = end + newline_.size();
+        header_.end = end + 1;
         while (line.ends_with('\r'))
             line.remove_suffix(1);
         rest_ = line;
@@ -78,9 +91,9 @@ class HeaderReader {
             readElement();
         else if (keyword == "property")
             readProperty();
-        else if (keyword == "comment")
+        else if (keyword == "comment" || keyword == "obj_info")
             readComment();
-        else if (keyword != "obj_info" && !keyword.empty())
+        else if (!keyword.empty())
             report_.forgive(place(),
                             fmt::format("'{}' is no keyword of a header", shortened(keyword)),
                             "the line is skipped");
@@ -88,11 +101,14 @@ class HeaderReader {
     }
 
     void readComment() {
-        if (takeWord() != "TextureFile") return;
+        const std::string word = inSmallLetters(takeWord());
+        if (word != "texturefile" && word != "texturefile:") return;
         const size_t first = rest_.find_first_not_of(" \t");
         if (first == std::string_view::npos) return;
-        header_.pictures.emplace_back(
-            rest_.substr(first, rest_.find_last_not_of(" \t") - first + 1));
+        std::string_view name = rest_.substr(first, rest_.find_last_not_of(" \t") - first + 1);
+        if (name.size() > 2 && name.starts_with('"') && name.ends_with('"'))
+            name = name.substr(1, name.size() - 2);
+        header_.pictures.emplace_back(name);
     }
 
     void readFormat() {
@@ -116,7 +132,7 @@ class HeaderReader {
 
     void readElement() {
         Element element;
-        element.name = takeWord();
+        element.name = inSmallLetters(takeWord());
         const std::string_view word = takeWord();
         const std::optional<int64_t> count = build::integerIn(word);
         if (element.name.empty() || !count || *count < 0)
@@ -153,13 +169,21 @@ class HeaderReader {
     }
 
     const std::string& file_;
-    std::string_view bytes_, newline_, rest_;
+    std::string_view bytes_, rest_;
+    char newline_ = '\n';
     build::Report& report_;
     Header header_;
     bool hasFormat_ = false;
 };
 
 } // namespace
+
+std::string inSmallLetters(std::string_view name) {
+    std::string small(name);
+    std::transform(small.begin(), small.end(), small.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return small;
+}
 
 size_t sizeOf(ScalarType type) {
     return kTypes[size_t(type)].size;

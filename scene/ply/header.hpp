@@ -12,20 +12,31 @@ namespace stromboli::ply {
 
 enum class Encoding { Ascii, LittleEndian, BigEndian };
 
-enum class ScalarType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+enum class ScalarType {
+    Int8,
+    UInt8,
+    Int16,
+    UInt16,
+    Int32,
+    UInt32,
+    Float32,
+    Float64,
+    Int64,
+    UInt64
+};
 
 size_t sizeOf(ScalarType type);
 
 /// One number of each element, or a list of them with a number of its own for its length.
 struct Property {
-    std::string name;
+    std::string name; ///< as it is written: Mitsuba's attributes have capitals
     ScalarType type = ScalarType::Float32;
     std::optional<ScalarType> countType; ///< nothing: no list
 };
 
 /// A kind of elements, such as vertices, all of which have the same properties.
 struct Element {
-    std::string name;
+    std::string name; ///< in small letters
     uint64_t count = 0;
     std::vector<Property> properties;
 };
@@ -41,6 +52,9 @@ struct Header {
     /// Nothing if there are none of this kind.
     const Element* find(std::string_view name) const;
 };
+
+/// Names in the letters by which they are compared.
+std::string inSmallLetters(std::string_view name);
 
 /// Throws SceneError, with the line, for what is no header.
 Header readHeader(const std::string& file, std::string_view bytes, build::Report& report);

@@ -19,6 +19,8 @@ struct PlyAttribute {
     bool isOfFaces = false;
     /// Whether colours of vertices are sRGB; without a value whole numbers are, and floats are not.
     std::optional<bool> areSrgb = std::nullopt;
+    /// Whether colours of wider types than bytes may be fractions of 255, where they look so.
+    bool mayBeBytes = true;
 };
 
 /// Reads a PLY file, ASCII or binary; docs/guide/obj_ply.md says what of it. Throws SceneError with

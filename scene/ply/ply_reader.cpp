@@ -25,12 +25,16 @@ constexpr uint64_t kBytesOfTriangle =
 
 /// Within a strip, where the next one begins.
 constexpr uint32_t kRestart = 0xFFFFFFFFu;
+/// Of a face that is to have no picture.
+constexpr uint32_t kNoPicture = 0xFFFFFFFFu;
 /// A corner that is not there.
 constexpr uint32_t kNoVertex = kRestart - 1;
 
+constexpr std::string_view kCornerLists[] = {"vertex_indices", "vertex_index", "indices"};
+
 bool isCornerList(const Property& property) {
     return property.countType &&
-           (property.name == "vertex_indices" || property.name == "vertex_index");
+           std::ranges::find(kCornerLists, inSmallLetters(property.name)) != std::end(kCornerLists);
 }
 
 } // namespace
@@ -49,21 +53,57 @@ void PlyReader::read() {
         build::FilePlace{name_, 0, "vertex"}.fail(
             fmt::format("there are {}, more than there is room for", vertices->count));
     vertexCount_ = vertices->count;
-    for (const Element& element : header_.elements)
-        readElements(element);
+    readAll();
+    requireFaces();
     const uint64_t ofColors = faceColors_.empty() ? 0 : 2 * sizeof(VertexAttributes); // there too
     build::requireMemory(name_, corners_.size() * (kBytesOfTriangle + ofColors));
-    const std::array<uint32_t, 1> materials = {material()};
+    build::Mesh mesh = makeMesh();
+    const std::vector<uint32_t> materials = materialsOfParts();
     const std::string instance = file_.stem().string();
-    const build::ShapeId shape = builder_.addMesh(instance, makeMesh());
+    const build::ShapeId shape = builder_.addMesh(instance, std::move(mesh));
     builder_.place({name_, 0, "face"}, shape, glm::dmat4(1), materials, instance);
 }
 
-void PlyReader::readElements(const Element& element) {
+/// Of a file that ends too early, what there is of its faces is shown.
+void PlyReader::readAll() {
+    try {
+        for (const Element& element : header_.elements)
+            readElements(element);
+    } catch (const Truncated& error) {
+        if (vertices_.positions.size() < vertexCount_) throw;
+        size_t whole = 0; // corners of the faces before
+        for (const uint32_t size : sizes_)
+            whole += size;
+        corners_.resize(std::min(whole, corners_.size()));
+        builder_.report().replace(error, build::Shortfall::Geometry);
+    }
+}
+
+/// Clouds of points, and of splats, are PLY files too.
+void PlyReader::requireFaces() const {
+    if (!sizes_.empty() || builder_.report().firstError()) return;
+    build::FilePlace{name_, 0, ""}.fail(fmt::format(
+        "has {} vertices and no faces: expected an element 'face' or 'tristrips' (points "
+        "are not shown)",
+        vertexCount_));
+}
+
+void PlyReader::readElements(const Element& stated) {
+    Element element = stated;
+    // Faces of which the file has too few are read as far as they go.
+    if (element.name != "vertex" && vertices_.positions.size() == vertexCount_ &&
+        element.count > body_.mostOf(element)) {
+        try {
+            body_.begin(element);
+        } catch (const Truncated& error) {
+            builder_.report().replace(error, build::Shortfall::Geometry);
+        }
+        element.count = body_.mostOf(element);
+    }
     body_.begin(element);
     if (element.name == "vertex")
         vertices_ = readVertices(element, body_, builder_,
-                                 colors_.isOfFaces ? "color" : colors_.name, colors_.areSrgb);
+                                 colors_.isOfFaces ? "color" : colors_.name, colors_);
     else if (element.name == "face" || element.name == "tristrips")
         readFaces(element);
     else
@@ -101,10 +141,14 @@ void PlyReader::readFaces(const Element& element) {
     const auto isUvList = [&](const Property& property) {
         return property.countType && property.name == "texcoord" && !areStrips;
     };
+    const auto isPictureNumber = [&](const Property& property) {
+        return !property.countType && property.name == "texnumber" && !areStrips;
+    };
     for (const Property& property : element.properties) {
         if (isCornerList(property) && !hasCorners)
             hasCorners = true;
-        else if ((!readsColors || !colors.isColor(property)) && !isUvList(property))
+        else if ((!readsColors || !colors.isColor(property)) && !isUvList(property) &&
+                 !isPictureNumber(property))
             builder_.report().ignore(
                 "properties of faces",
                 "only their corners, texture coordinates and colours are read");
@@ -117,6 +161,13 @@ void PlyReader::readFaces(const Element& element) {
         for (const Property& property : element.properties) {
             if (readsColors && colors.isColor(property)) {
                 colors.set(property, body_.number(property.type));
+                continue;
+            }
+            if (isPictureNumber(property) && isRead) {
+                const double number = body_.number(property.type);
+                const bool isThere = number >= 0 && number < double(header_.pictures.size());
+                pictureNumbers_.resize(sizes_.size());
+                pictureNumbers_.back() = isThere ? uint32_t(number) : kNoPicture;
                 continue;
             }
             if (isUvList(property) && isRead) {
@@ -198,6 +249,18 @@ build::Corner PlyReader::cornerOf(size_t face, size_t corner, bool hasAttributes
     return {v, normal, uint32_t(mesh.attributes.size() - 1)};
 }
 
+/// The part of a face's picture, which is made where there is none yet.
+size_t PlyReader::partOf(size_t face, build::Mesh& mesh) {
+    const bool isTold = header_.pictures.size() > 1 && face < pictureNumbers_.size();
+    const uint32_t picture = isTold ? pictureNumbers_[face] : 0;
+    const auto found = std::ranges::find(partPictures_, picture);
+    const auto part = size_t(found - partPictures_.begin());
+    if (found != partPictures_.end()) return part;
+    partPictures_.push_back(picture);
+    mesh.parts.emplace_back();
+    return part;
+}
+
 build::Mesh PlyReader::makeMesh() {
     build::Mesh mesh;
     mesh.positions = std::move(vertices_.positions);
@@ -206,7 +269,6 @@ build::Mesh PlyReader::makeMesh() {
         for (VertexAttributes& a : vertices_.attributes)
             a.color = glm::vec4(1);
     mesh.attributes = std::move(vertices_.attributes);
-    build::MeshPart& part = mesh.parts.emplace_back();
     build::PolygonCutter polygons(mesh, builder_.report());
     std::vector<build::Corner> face;
     size_t first = 0;
@@ -220,22 +282,22 @@ build::Mesh PlyReader::makeMesh() {
             std::find(corners, corners + sizes_[i], kNoVertex) == corners + sizes_[i];
         for (size_t k = 0; isWhole && k < sizes_[i]; ++k)
             face.push_back(cornerOf(i, first + k, hasAttributes, mesh));
-        if (isWhole) polygons.add(face, part);
+        if (isWhole) polygons.add(face, mesh.parts[partOf(i, mesh)]);
         first += sizes_[i];
     }
     return mesh;
 }
 
 /// The picture that a comment of the header names, if the surface has coordinates for it.
-std::optional<uint32_t> PlyReader::picture() {
-    if (header_.pictures.empty() || !builder_.conventions().textures) return std::nullopt;
+std::optional<uint32_t> PlyReader::picture(uint32_t number) {
+    if (number >= header_.pictures.size() || !builder_.conventions().textures) return std::nullopt;
     const build::FilePlace place{name_, 0, "TextureFile"};
-    const std::string& written = header_.pictures.front();
+    const std::string& written = header_.pictures[number];
     if (!vertices_.hasUv && cornerUvs_.empty()) {
         builder_.report().ignore("TextureFile", "there are no texture coordinates");
         return std::nullopt;
     }
-    if (header_.pictures.size() > 1)
+    if (header_.pictures.size() > 1 && pictureNumbers_.empty())
         builder_.report().forgive(place, fmt::format("there are {}", header_.pictures.size()),
                                   "the first picture is on all faces");
     const build::Companion file = build::pictureCompanion(file_.parent_path(), written);
@@ -262,17 +324,24 @@ std::optional<uint32_t> PlyReader::picture() {
 }
 
 /// The format has no materials. Where vertices have colours, those are what the surface reflects.
-uint32_t PlyReader::material() {
+uint32_t PlyReader::material(uint32_t pictureNumber) {
     Material material = build::greyMaterial();
     if (vertices_.hasColors || !faceColors_.empty()) material.albedo = glm::vec3(1);
     if (vertices_.hasAlpha && !colors_.isOfFaces) material.alphaMode = AlphaMode::Blend;
-    if (const std::optional<uint32_t> texture = picture()) {
+    if (const std::optional<uint32_t> texture = picture(pictureNumber)) {
         TextureUse use;
         use.texture = *texture;
         material.albedo = glm::vec3(1);
         material.textures.push_back(use);
     }
     return builder_.addMaterial(material);
+}
+
+std::vector<uint32_t> PlyReader::materialsOfParts() {
+    std::vector<uint32_t> materials;
+    for (const uint32_t picture : partPictures_)
+        materials.push_back(material(picture));
+    return materials;
 }
 
 } // namespace stromboli::ply

@@ -21,7 +21,9 @@ class PlyReader {
     void read();
 
   private:
-    void readElements(const Element& element);
+    void readAll();
+    void requireFaces() const;
+    void readElements(const Element& stated);
     void readFaces(const Element& element);
     void skip(const Element& element);
     void addStrip(const std::vector<uint32_t>& strip);
@@ -30,8 +32,10 @@ class PlyReader {
     void readCornerUvs(const Property& property, size_t corners);
     build::Corner cornerOf(size_t face, size_t corner, bool hasAttributes, build::Mesh& mesh) const;
     build::Mesh makeMesh();
-    std::optional<uint32_t> picture();
-    uint32_t material();
+    size_t partOf(size_t face, build::Mesh& mesh);
+    std::optional<uint32_t> picture(uint32_t number);
+    uint32_t material(uint32_t pictureNumber);
+    std::vector<uint32_t> materialsOfParts();
 
     const std::filesystem::path& file_;
     std::string name_; ///< for messages
@@ -42,10 +46,12 @@ class PlyReader {
     Body body_;
     uint64_t vertexCount_ = 0;
     Vertices vertices_;
-    std::vector<uint32_t> corners_;     ///< of all faces, one face after the other
-    std::vector<uint32_t> sizes_;       ///< how many corners each of them has
-    std::vector<glm::vec2> cornerUvs_;  ///< of each corner, v upwards; empty: the vertices' count
-    std::vector<glm::vec4> faceColors_; ///< of each of them; empty: none are wanted, or there
+    std::vector<uint32_t> corners_;    ///< of all faces, one face after the other
+    std::vector<uint32_t> sizes_;      ///< how many corners each of them has
+    std::vector<glm::vec2> cornerUvs_; ///< of each corner, v upwards; empty: the vertices' count
+    std::vector<uint32_t> pictureNumbers_; ///< of each face; empty: there are none
+    std::vector<uint32_t> partPictures_;   ///< of the mesh's parts
+    std::vector<glm::vec4> faceColors_;    ///< of each of them; empty: none are wanted, or there
 };
 
 } // namespace stromboli::ply

@@ -28,10 +28,16 @@ constexpr RoleName kRoles[] = {{"x", X},
                                {"nz", Nz},
                                {"u", U},
                                {"s", U},
+                               {"tx", U},
+                               {"tu", U},
+                               {"texcoord_u", U},
                                {"texture_u", U},
                                {"texture_s", U},
                                {"v", V},
                                {"t", V},
+                               {"ty", V},
+                               {"tv", V},
+                               {"texcoord_v", V},
                                {"texture_v", V},
                                {"texture_t", V},
                                {"red", Red},
@@ -51,8 +57,9 @@ constexpr RoleName kRoles[] = {{"x", X},
 
 Role roleOf(const Property& property) {
     if (property.countType) return None;
+    const std::string name = inSmallLetters(property.name);
     for (const RoleName& row : kRoles)
-        if (property.name == row.name) return row.role;
+        if (name == row.name) return row.role;
     return None;
 }
 
@@ -75,11 +82,37 @@ std::optional<int> channelNamed(const Property& property, const std::string& nam
     return int(channel);
 }
 
+bool isWhole(ScalarType type) {
+    return type != ScalarType::Float32 && type != ScalarType::Float64;
+}
+
+/// Which numbers the colours of a file are. Programs write bytes as numbers of any type.
+struct ColorRange {
+    ScalarType type = ScalarType::Float32;
+    float most = 0;
+    bool areWhole = true;
+
+    void add(float value) {
+        most = std::max(most, value);
+        areWhole = areWhole && value == std::floor(value);
+    }
+    /// The number that stands for 1.
+    double one() const {
+        constexpr double byte = 255;
+        const double full = fullScale(type);
+        if (full > byte && most <= 1) return 1;
+        const bool areBytes =
+            most > 1 && most <= byte && areWhole && (full > byte || !isWhole(type));
+        return areBytes ? byte : full;
+    }
+};
+
 class VertexReader {
   public:
     VertexReader(const Element& element, Body& body, build::SceneBuilder& builder,
-                 const std::string& colors, std::optional<bool> areSrgb)
-        : element_(element), body_(body), builder_(builder), isColor_(colors == "color") {
+                 const std::string& colors, const PlyAttribute& stated)
+        : element_(element), body_(body), builder_(builder), areSrgb_(stated.areSrgb),
+          mayBeBytes_(stated.mayBeBytes), isColor_(colors == "color") {
         for (const Property& property : element.properties) {
             Role role = roleOf(property);
             if (!isColor_ && role >= Red && role <= Alpha) role = None;
@@ -93,11 +126,9 @@ class VertexReader {
             else
                 has_[role] = true;
             roles_.push_back(role);
-            if (role >= Red && role <= Blue) colorScale_ = fullScale(property.type);
-            if (role == Alpha) alphaScale_ = fullScale(property.type);
+            if (role >= Red && role <= Blue) colors_.type = property.type;
+            if (role == Alpha) alphas_.type = property.type;
         }
-        isSaid_ = areSrgb.has_value();
-        isLinear_ = !areSrgb.value_or(colorScale_ != 1);
         if (!has_[X] || !has_[Y] || !has_[Z]) body.fail("vertices have no x, y and z");
         hasNormals_ = has_[Nx] && has_[Ny] && has_[Nz];
         hasUv_ = has_[U] && has_[V];
@@ -106,10 +137,6 @@ class VertexReader {
     }
 
     Vertices read() {
-        if (hasColors_ && isColor_ && !isSaid_)
-            builder_.report().assume(isLinear_
-                                         ? "colours of vertices are linear, as floats are"
-                                         : "colours of vertices are sRGB, as whole numbers are");
         found_.hasColors = hasColors_;
         found_.hasUv = hasUv_;
         // Twice: here and in the scene.
@@ -130,6 +157,7 @@ class VertexReader {
             keep();
             body_.endElement();
         }
+        if (hasColors_) finishColors();
         return std::move(found_);
     }
 
@@ -143,9 +171,9 @@ class VertexReader {
         // On the renderer's pictures v grows downwards.
         if (hasUv_) a.uv[0] = {finite(values_[U]), finite(1 - values_[V])};
         if (hasColors_) a.color = colorOf();
-        found_.hasAlpha = found_.hasAlpha || a.color.w < 1;
     }
 
+    /// As the file states it.
     glm::vec4 colorOf() {
         glm::vec4 color(1);
         if (!isColor_) {
@@ -153,13 +181,38 @@ class VertexReader {
                 color[i] = finite(values_[has_[Blue] ? Red + i : Red]);
             return color;
         }
-        for (int i = 0; i < 3; ++i) {
-            const double value = std::max(double(finite(values_[Red + i])), 0.0) / colorScale_;
-            color[i] = float(isLinear_ ? value : srgbToLinear(std::min(value, 1.0)));
-        }
-        if (has_[Alpha])
-            color.w = float(std::clamp(finite(values_[Alpha]) / alphaScale_, 0.0, 1.0));
+        for (int i = 0; i < 3; ++i)
+            colors_.add(color[i] = std::max(finite(values_[Red + i]), 0.0f));
+        if (has_[Alpha]) alphas_.add(color.w = std::max(finite(values_[Alpha]), 0.0f));
         return color;
+    }
+
+    /// What the numbers mean can be told from all of them alone.
+    void finishColors() {
+        if (!isColor_) return;
+        const double scale = mayBeBytes_ ? colors_.one() : fullScale(colors_.type);
+        const bool isLinear = !areSrgb_.value_or(scale != 1 || isWhole(colors_.type));
+        if (!areSrgb_) {
+            if (scale != fullScale(colors_.type) && isWhole(colors_.type))
+                builder_.report().assume(fmt::format(
+                    "colours of vertices are fractions of {}, as none is above it", scale));
+            else if (scale != fullScale(colors_.type))
+                builder_.report().replace({body_.place().file, 0, "vertex"},
+                                          build::Shortfall::ByteColor,
+                                          fmt::format("the colours go up to {}", colors_.most));
+            builder_.report().assume(isLinear
+                                         ? "colours of vertices are linear, as floats are"
+                                         : "colours of vertices are sRGB, as whole numbers are");
+        }
+        const double alphaScale = mayBeBytes_ ? alphas_.one() : fullScale(alphas_.type);
+        for (VertexAttributes& a : found_.attributes) {
+            for (int i = 0; i < 3; ++i) {
+                const double value = double(a.color[i]) / scale;
+                a.color[i] = float(isLinear ? value : srgbToLinear(std::min(value, 1.0)));
+            }
+            if (has_[Alpha]) a.color.w = float(std::min(a.color.w / alphaScale, 1.0));
+            found_.hasAlpha = found_.hasAlpha || a.color.w < 1;
+        }
     }
 
     float finite(double value) {
@@ -176,9 +229,10 @@ class VertexReader {
     std::vector<Role> roles_; ///< one for each property
     std::array<bool, kRoleCount> has_{};
     std::array<double, kRoleCount> values_{};
-    bool isLinear_ = false, isSaid_ = false; ///< of colours; by whoever reads the file
-    bool isColor_;                           ///< what colours are read from, and no other attribute
-    double colorScale_ = 1, alphaScale_ = 1;
+    std::optional<bool> areSrgb_; ///< said by whoever reads the file
+    bool mayBeBytes_;
+    bool isColor_; ///< what colours are read from, and no other attribute
+    ColorRange colors_, alphas_;
     bool hasNormals_ = false, hasUv_ = false, hasColors_ = false;
 };
 
@@ -202,14 +256,18 @@ double fullScale(ScalarType type) {
         return std::numeric_limits<int32_t>::max();
     case ScalarType::UInt32:
         return std::numeric_limits<uint32_t>::max();
+    case ScalarType::Int64:
+        return double(std::numeric_limits<int64_t>::max());
+    case ScalarType::UInt64:
+        return double(std::numeric_limits<uint64_t>::max());
     default:
         return 1;
     }
 }
 
 Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
-                      const std::string& colors, std::optional<bool> areSrgb) {
-    return VertexReader(element, body, builder, colors, areSrgb).read();
+                      const std::string& colors, const PlyAttribute& stated) {
+    return VertexReader(element, body, builder, colors, stated).read();
 }
 
 } // namespace stromboli::ply

@@ -3,6 +3,7 @@
 #include "scene/build/mesh.hpp"
 #include "scene/build/scene_builder.hpp"
 #include "scene/ply/body.hpp"
+#include "scene/ply/load_ply.hpp"
 
 #include <optional>
 
@@ -25,8 +26,8 @@ double fullScale(ScalarType type);
 
 /// Reads all vertices, which `body` is at the beginning of. Throws SceneError if they have no x, y
 /// and z. Those that are not finite are kept: many files have vertices that no face uses.
-/// colors: the name of the attribute that their colours are; areSrgb: as PlyAttribute has it.
+/// colors: the name of the attribute that their colours are; stated: what else is known of them.
 Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
-                      const std::string& colors, std::optional<bool> areSrgb);
+                      const std::string& colors, const PlyAttribute& stated);
 
 } // namespace stromboli::ply

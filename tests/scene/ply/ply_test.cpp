@@ -156,10 +156,90 @@ TEST(Ply, LinesEndInAnyWay) {
     EXPECT_FALSE(looksLikePly("plywood\n"));
 }
 
-TEST(Ply, VerticesWithoutFacesAreAWarning) {
-    const Scene scene = loadPlyBytes(plyHeader("ascii", "", "") + kPlySquare);
-    EXPECT_TRUE(scene.triangles.empty());
-    EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("has no triangles")));
+/// Clouds of points leave nothing to show.
+TEST(Ply, VerticesWithoutFacesAreAnError) {
+    const std::string expected = "p.ply: has 4 vertices and no faces: expected an element 'face'";
+    EXPECT_THAT(plyErrorOf(plyHeader("ascii", "", "") + kPlySquare), HasSubstr(expected));
+    EXPECT_THAT(plyErrorOf(plyHeader("ascii", "", "element face 0\nproperty list uchar int x\n") +
+                           kPlySquare),
+                HasSubstr(expected));
+}
+
+/// Other programs than those of Stanford write names as they like.
+TEST(Ply, NamesMayHaveOtherCapitals) {
+    const Scene scene = loadPlyBytes(
+        "ply\nformat ascii 1.0\nelement Vertex 3\nproperty float X\nproperty float Y\n"
+        "property float Z\nproperty float U\nproperty float V\nproperty uchar Red\n"
+        "property uchar Green\nproperty uchar Blue\nelement Face 1\n"
+        "property list uchar int64 Indices\nend_header\n0 0 0 0 0 255 0 0\n1 0 0 1 0 255 0 0\n"
+        "1 1 0 1 0.25 255 0 0\n3 0 1 2\n");
+    ASSERT_EQ(scene.triangles.size(), 1u);
+    EXPECT_EQ(scene.attributes.at(2).color, glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(scene.attributes.at(2).uv[0], glm::vec2(1, 0.75f));
+}
+
+/// Programs that know one type of numbers only write bytes in it.
+TEST(Ply, ColoursOfAnyTypeMayBeBytes) {
+    for (const std::string type : {"int", "short", "float", "int64"}) {
+        std::string more;
+        for (const char* name : {"red", "green", "blue", "alpha"})
+            more += "property " + type + " " + name + "\n";
+        std::string body;
+        for (const char* corner : {"0 0 0", "1 0 0", "1 1 0", "0 1 0"})
+            body += std::string(corner) + " 255 0 128 51\n";
+        const Scene scene = loadPlyBytes(plyHeader("ascii", more) + body + "4 0 1 2 3\n");
+        const glm::vec4 color = scene.attributes.at(0).color;
+        EXPECT_FLOAT_EQ(color.x, 1) << type;
+        EXPECT_EQ(color.y, 0) << type;
+        EXPECT_NEAR(color.z, 0.215861, 1e-5) << type; // ((128 / 255 + 0.055) / 1.055)^2.4
+        EXPECT_FLOAT_EQ(color.w, 0.2f) << type;
+        const bool isFloat = type == "float";
+        EXPECT_EQ(scene.report.forgiven.size(), isFloat ? 1u : 0u) << type;
+        if (isFloat) continue;
+        EXPECT_THAT(scene.report.assumed, Contains(HasSubstr("of 255"))) << type;
+    }
+}
+
+/// MeshLab writes the number of a picture for each face, -1 for none.
+TEST(Ply, FacesHaveThePicturesOfTheirNumbers) {
+    std::string text = plyHeader("ascii", "property float s\nproperty float t\n",
+                                 "element face 3\nproperty list uchar int vertex_indices\n"
+                                 "property int texnumber\n") +
+                       "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n"
+                       "3 0 1 2 1\n3 0 2 3 -1\n3 0 1 3 0\n";
+    text.replace(text.find("comment made by hand"), 20,
+                 "obj_info TEXTUREFILE: \"a.png\"\ncomment TextureFile b.png");
+    const Scene scene = loadPlyBytes(text);
+    ASSERT_EQ(scene.triangles.size(), 3u);
+    EXPECT_EQ(scene.materials.size(), 3u);
+    EXPECT_NE(scene.triangles[0].material, scene.triangles[1].material);
+    // Neither picture is there: each is looked for.
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("'b.png' is not in the file's folder")));
+    EXPECT_THAT(scene.report.forgiven, testing::Not(Contains(HasSubstr("first picture"))));
+}
+
+TEST(Ply, AFileThatEndsTooEarlyIsShownAsFarAsItGoes) {
+    for (const char* faces : {"element face 3\n", "element face 3000000\n"}) {
+        const std::string list = "property list uchar int vertex_indices\n";
+        const Scene scene =
+            loadPlyBytes(plyHeader("ascii", "", faces + list) + kPlySquare + "3 0 1 2\n3 0 2");
+        EXPECT_EQ(scene.triangles.size(), 1u);
+        EXPECT_THAT(scene.report.forgiven, testing::ElementsAre(HasSubstr("it is left out")));
+        std::string binary = plyHeader("binary_little_endian", "", faces + list);
+        for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
+            binary += plyBytes(x, false);
+        for (const int32_t corner : {0, 1, 2})
+            binary += (corner == 0 ? "\x03" : "") + plyBytes(corner, false);
+        EXPECT_EQ(loadPlyBytes(binary + "\x03" + std::string(7, '\0')).triangles.size(), 1u);
+    }
+}
+
+TEST(Ply, BeginsWithAByteOrderMarkOrHasMixedEndsOfLines) {
+    const std::string text = plyHeader("ascii") + kPlySquare + "4 0 1 2 3\n";
+    EXPECT_EQ(loadPlyBytes("\xEF\xBB\xBF" + text).triangles.size(), 2u);
+    std::string mixed = text;
+    mixed.replace(mixed.find('\n'), 1, "\r\n");
+    EXPECT_EQ(loadPlyBytes(mixed).triangles.size(), 2u);
 }
 
 TEST(Ply, WhatIsForgiven) {
