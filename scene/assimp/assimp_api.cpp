@@ -10,6 +10,7 @@ AssimpApi load() {
     SharedLibrary library("libassimp.so.5", "libassimp5");
     library.find(api.importFile, "aiImportFile");
     library.find(api.importMemory, "aiImportFileFromMemory");
+    library.find(api.applySteps, "aiApplyPostProcessing");
     library.find(api.releaseImport, "aiReleaseImport");
     library.find(api.errorString, "aiGetErrorString");
     library.find(api.materialColor, "aiGetMaterialColor");

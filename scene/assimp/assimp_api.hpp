@@ -2,6 +2,7 @@
 
 #include <assimp/cimport.h>
 #include <assimp/material.h>
+#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <string>
@@ -12,6 +13,7 @@ namespace stromboli::assimp {
 struct AssimpApi {
     decltype(&::aiImportFile) importFile = nullptr;
     decltype(&::aiImportFileFromMemory) importMemory = nullptr;
+    decltype(&::aiApplyPostProcessing) applySteps = nullptr;
     decltype(&::aiReleaseImport) releaseImport = nullptr;
     decltype(&::aiGetErrorString) errorString = nullptr;
     decltype(&::aiGetMaterialColor) materialColor = nullptr;

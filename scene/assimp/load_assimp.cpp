@@ -4,6 +4,7 @@
 #include "scene/assimp/assimp_api.hpp"
 #include "scene/assimp/materials.hpp"
 #include "scene/assimp/meshes.hpp"
+#include "scene/assimp/stl_file.hpp"
 #include "scene/assimp/views.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/build/scene_builder.hpp"
@@ -13,7 +14,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace stromboli {
@@ -22,33 +26,54 @@ namespace {
 
 using Imported = std::unique_ptr<const aiScene, decltype(&::aiReleaseImport)>;
 
-std::string lowered(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
-
 /// In small letters, with its dot.
 std::string endingOf(const std::filesystem::path& file) {
-    return lowered(file.extension().string());
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    return ending;
 }
 
-Imported import(const std::filesystem::path& file) {
+bool hasColors(const aiScene& scene) {
+    return std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+                       [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
+}
+
+struct File {
+    Imported scene;
+    std::optional<glm::vec3> color; ///< of all surfaces, where an STL file states it
+};
+
+File import(const std::filesystem::path& file, build::Report& report) {
     const AssimpApi& api = assimpApi();
     if (!api.missing.empty())
         throw SceneError(file.string(), 0, "",
                          "is in a format that Assimp reads, but " + api.missing);
-    build::readFile(file, 1); // it is there, and a file
-    constexpr unsigned kSteps =
-        aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
-    Imported scene(api.importFile(file.c_str(), kSteps), api.releaseImport);
-    // Assimp reads the keywords of STL as text in small letters only.
-    if (!scene && endingOf(file) == ".stl") {
-        const std::string text = lowered(build::readFile(file));
-        scene.reset(api.importMemory(text.data(), unsigned(text.size()), kSteps, "stl"));
+    // Assimp's readers end the program where a file is empty.
+    if (build::readFile(file, 1).empty())
+        throw SceneError(file.string(), 0, "", "is empty: expected a scene");
+    constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
+    File found{{nullptr, api.releaseImport}, std::nullopt};
+    if (endingOf(file) == ".stl") {
+        const StlFile stl = stlForAssimp(build::readFile(file), file.string(), report);
+        constexpr size_t most = std::numeric_limits<unsigned>::max();
+        if (stl.bytes.size() > most)
+            throw SceneError(file.string(), 0, "", "has more than 4 GiB, which Assimp cannot read");
+        found.scene.reset(
+            api.importMemory(stl.bytes.data(), unsigned(stl.bytes.size()), kSteps, "stl"));
+        found.color = stl.color;
+    } else {
+        found.scene.reset(api.importFile(file.c_str(), kSteps));
     }
-    if (!scene) throw SceneError(file.string(), 0, "", std::string("Assimp: ") + api.errorString());
-    return scene;
+    if (!found.scene)
+        throw SceneError(file.string(), 0, "", std::string("Assimp: ") + api.errorString());
+    // Vertices that differ by their colours alone would be joined, too.
+    if (!hasColors(*found.scene) &&
+        !api.applySteps(found.scene.get(), aiProcess_JoinIdenticalVertices)) {
+        static_cast<void>(found.scene.release()); // Assimp has done so
+        throw SceneError(file.string(), 0, "", std::string("Assimp: ") + api.errorString());
+    }
+    return found;
 }
 
 glm::dmat4 matrixOf(const aiMatrix4x4& m) {
@@ -72,11 +97,11 @@ double unitOf(const aiScene& scene) {
 /// Puts all that hangs on nodes into the world.
 class Nodes {
   public:
-    Nodes(const std::filesystem::path& file, const aiScene& scene, double unit,
-          build::SceneBuilder& builder)
+    Nodes(const std::filesystem::path& file, const aiScene& scene, std::optional<glm::vec3> color,
+          double unit, build::SceneBuilder& builder)
         : file_(file.string()), scene_(scene), unit_(unit), isFbx_(endingOf(file) == ".fbx"),
-          builder_(builder), materials_(file, scene, builder), meshes_(scene, builder, materials_) {
-    }
+          builder_(builder), materials_(file, scene, color, builder),
+          meshes_(scene, builder, materials_) {}
 
     void place() {
         struct Pending {
@@ -129,14 +154,15 @@ class Nodes {
 } // namespace assimp
 
 Scene loadWithAssimp(const std::filesystem::path& file, const SceneConventions& conventions) {
-    const assimp::Imported imported = assimp::import(file);
     build::SceneBuilder builder(file.string(), conventions);
+    const assimp::File read = assimp::import(file, builder.report());
+    const assimp::Imported& imported = read.scene;
     if (imported->mNumAnimations > 0)
         builder.report().ignore("animations", "the scene is shown without them");
     const double unit = conventions.applyUnit ? assimp::unitOf(*imported) : 1;
     if (assimp::endingOf(file) == ".stl" && conventions.up == UpAxis::Y)
         builder.report().assume("an STL file does not say which axis is up: y is (--up z: z)");
-    assimp::Nodes(file, *imported, unit, builder).place();
+    assimp::Nodes(file, *imported, read.color, unit, builder).place();
     return builder.finish();
 }
 

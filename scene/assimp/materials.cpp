@@ -56,8 +56,8 @@ bool isOfBlender(const aiScene& scene) {
 } // namespace
 
 Materials::Materials(const std::filesystem::path& file, const aiScene& scene,
-                     build::SceneBuilder& builder)
-    : file_(file.string()), scene_(scene), builder_(builder),
+                     std::optional<glm::vec3> color, build::SceneBuilder& builder)
+    : file_(file.string()), scene_(scene), color_(color), builder_(builder),
       pictures_(file.parent_path(), builder) {
     std::string suffix = file.extension().string();
     std::ranges::transform(suffix, suffix.begin(),
@@ -84,6 +84,7 @@ const Materials::Made& Materials::made(unsigned material) {
         // Assimp makes one up, in white.
         Material grey = build::greyMaterial();
         if (hasColors_) grey.albedo = glm::vec3(1);
+        if (color_) grey.albedo = *color_;
         made.number = builder_.addMaterial(std::move(grey));
     } else if (material >= scene_.mNumMaterials) {
         made.number = builder_.defaultMaterial();

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 
 namespace stromboli::assimp {
 
@@ -15,8 +16,9 @@ namespace stromboli::assimp {
 /// files have (scene/obj/material_rules.hpp).
 class Materials {
   public:
+    /// color: of surfaces of formats that have no materials.
     Materials(const std::filesystem::path& file, const aiScene& scene,
-              build::SceneBuilder& builder);
+              std::optional<glm::vec3> color, build::SceneBuilder& builder);
 
     uint32_t numberOf(unsigned material);
     /// Its surface has a direction: a normal map, or a grain.
@@ -35,6 +37,7 @@ class Materials {
 
     std::string file_;
     const aiScene& scene_;
+    std::optional<glm::vec3> color_;
     build::SceneBuilder& builder_;
     obj::Pictures pictures_;
     std::map<unsigned, Made> made_;
