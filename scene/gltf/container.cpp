@@ -31,15 +31,18 @@ Container openContainer(const std::string& file, std::string_view bytes) {
     if (const uint32_t version = wordAt(bytes, 4); version != 2)
         fail(fmt::format("is of version {} of the binary format, expected 2", version));
     const uint32_t length = wordAt(bytes, 8);
-    if (length > bytes.size())
-        fail(fmt::format("is truncated: its header states {} bytes, it has {}", length,
-                         bytes.size()));
-    bytes = bytes.substr(0, length);
     Container container;
+    // Tools change chunks and forget the header; what the chunks state decides.
+    if (length > bytes.size())
+        container.problem =
+            fmt::format("its header states {} bytes, it has {}", length, bytes.size());
+    bytes = bytes.substr(0, length);
     size_t number = 0;
     for (size_t at = 12; at + 8 <= bytes.size(); ++number) {
         const uint32_t size = wordAt(bytes, at), kind = wordAt(bytes, at + 4);
         at += 8;
+        if (size > bytes.size() - at && !container.problem.empty())
+            fail("is truncated: " + container.problem);
         if (size > bytes.size() - at)
             fail(fmt::format("chunk {} states {} bytes, {} are left", number, size,
                              bytes.size() - at));

@@ -10,6 +10,7 @@ namespace stromboli::gltf {
 struct Container {
     std::string_view json;
     std::optional<std::string_view> binary; ///< the first buffer, of .glb files that have it
+    std::string problem; ///< with the length that the header states; empty: there is none
 };
 
 /// Takes a binary file (.glb) apart; one that does not begin as such is JSON as a whole. Throws

@@ -40,20 +40,29 @@ Document::Document(const std::filesystem::path& file, build::Report& report, bui
     if (!parts_->isUtf8)
         report.forgive({file_, 0, ""}, "has bytes that are no UTF-8",
                        "they are read as characters of Latin-1");
+    if (!parts_->container.problem.empty())
+        report.forgive({file_, 0, ""}, parts_->container.problem, "all of its chunks are there");
     root_ = std::make_unique<Element>(file_, "", *parts_->json, &report);
-    requireVersion();
+    requireVersion(report);
     checkExtensions(report);
 }
 
-void Document::requireVersion() const {
+void Document::requireVersion(build::Report& report) const {
     const std::optional<Element> asset = root_->child("asset");
-    if (!asset) root_->fail("is no glTF 2.0: it has no 'asset'");
-    if (!asset->has("version")) asset->fail("has no 'version'");
+    // Lists of accessors are arrays since version 2.
+    const auto accessors = parts_->json->find("accessors");
+    const bool isLikeVersion2 = accessors != parts_->json->end() && accessors->is_array();
+    const char* const reading = "the file is read as glTF 2.0";
+    if (!asset && !isLikeVersion2) root_->fail("is no glTF 2.0: it has no 'asset'");
+    if (!asset) return report.forgive(root_->place(), "has no 'asset'", reading);
+    if (!asset->has("version") && !isLikeVersion2) asset->fail("has no 'version'");
+    if (!asset->has("version")) report.forgive(asset->place(), "has no 'version'", reading);
     const std::string version = asset->text("version", "2.0");
     if (!version.starts_with("2."))
         asset->fail("version", fmt::format("is '{}', expected 2.0", version));
     const std::string least = asset->text("minVersion", "2.0");
-    if (least != "2.0") asset->fail("minVersion", fmt::format("is '{}', 2.0 is read", least));
+    if (least != "2.0")
+        report.forgive({file_, 0, "asset.minVersion"}, fmt::format("is '{}'", least), reading);
 }
 
 void Document::checkExtensions(build::Report& report) const {

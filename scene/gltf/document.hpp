@@ -52,7 +52,7 @@ class Document {
   private:
     std::string_view bytesOfBuffer(size_t buffer) const;
     std::string_view part(const Element& view) const;
-    void requireVersion() const;
+    void requireVersion(build::Report& report) const;
     void checkExtensions(build::Report& report) const;
 
     build::Report* report_;

@@ -135,9 +135,13 @@ std::vector<size_t> Nodes::rootsOfScene() const {
     }
     const std::optional<size_t> stated = document_.root().index("scene", count);
     if (count > 1) context_.report().ignore("scenes", "one is shown (--scene N)", count - 1);
-    const size_t scene = asked ? *asked : stated.value_or(0);
     const std::vector<Element> scenes = document_.root().items("scenes");
     if (scenes.size() != count) return roots_; // which has been said
+    size_t scene = asked ? *asked : stated.value_or(0);
+    // Where the file leaves it open, an empty scene is not what is meant.
+    if (!asked && !stated)
+        while (scene + 1 < count && scenes[scene].size("nodes") == 0)
+            ++scene;
     return scenes[scene].indicesOr("nodes", nodes_.size());
 }
 
@@ -245,6 +249,10 @@ std::vector<glm::dmat4> Nodes::readPlaces(const Element& attributes,
         count = values.count;
         return values;
     };
+    for (const std::string& name : attributes.names())
+        if (name.starts_with('_'))
+            context_.report().ignore(fmt::format("attribute '{}' of instances", name),
+                                     "instances differ by their places alone");
     const std::optional<Values> translations = read("TRANSLATION", 3),
                                 rotations = read("ROTATION", 4), scales = read("SCALE", 3);
     std::vector<glm::dmat4> places;

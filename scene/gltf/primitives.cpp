@@ -84,11 +84,35 @@ class PrimitiveReader {
         return found;
     }
 
+    /// Colours of whole numbers are fractions, whether their accessor says so or not: many programs
+    /// forget it.
+    void takeWholeNumbers(const Element& attributes, Values& colors) {
+        const size_t accessor =
+            attributes.index("COLOR_0", context_.document.size("accessors")).value();
+        const AccessorType type = typeOf(context_.document.at("accessors", accessor));
+        if (type.normalized || normalizedFactor(type) == 1) return;
+        const bool isAboveOne =
+            std::ranges::any_of(colors.numbers, [](double value) { return value > 1; });
+        if (!isAboveOne) return;
+        context_.report().forgive(attributes.place(),
+                                  "COLOR_0 has whole numbers that are not 'normalized'",
+                                  "they count as fractions of the largest one of their type");
+        for (double& value : colors.numbers)
+            value *= normalizedFactor(type);
+    }
+
+    static double normalizedFactor(AccessorType type) {
+        constexpr int isFloat = 5126;
+        type.normalized = type.component != isFloat;
+        return normalization(type);
+    }
+
     std::optional<Values> colors(const Element& attributes) {
         std::optional<Values> found = values(attributes, "COLOR_0", 0);
         if (found && found->width != 3 && found->width != 4)
             attributes.fail("COLOR_0",
                             fmt::format("has {} numbers, expected 3 or 4", found->width));
+        if (found) takeWholeNumbers(attributes, *found);
         if (attributes.has("COLOR_1"))
             context_.report().ignore("vertex colours", "only the first set has a meaning");
         return found;

@@ -108,10 +108,19 @@ build::Companion companionOf(const fs::path& folder, std::string_view uri) {
     if (hasScheme(uri) && !isPlace && uri.find(':') > 1) return {};
     const std::string_view written = isPlace ? uri.substr(file.size()) : uri;
     const std::string name = build::percentDecoded(written);
-    for (const std::string& reading : {name, std::string(written), build::utf8WithLatin1(name),
-                                       build::latin1FromUtf8(name).value_or("")})
+    for (const std::string& reading :
+         {name, std::string(written), build::latin1FromUtf8(name).value_or("")})
         if (build::Companion found = build::companion(folder, reading); found.path) return found;
-    return {};
+    // What servers are told behind a name.
+    const size_t query = written.find_first_of("?#");
+    if (query == std::string_view::npos || query == 0) return {};
+    build::Companion found =
+        build::companion(folder, build::percentDecoded(written.substr(0, query)));
+    if (found.path && found.problem.empty()) {
+        found.problem = fmt::format("'{}' has a query", shortUri(uri));
+        found.reading = "the name before it is read";
+    }
+    return found;
 }
 
 [[noreturn]] void failToFind(const fs::path& folder, std::string_view uri,

@@ -69,10 +69,8 @@ TEST(GltfErrors, Versions) {
     GltfText g = triangle();
     g.members["asset"] = R"({"version": "1.0"})";
     EXPECT_EQ(problem(g), "<asset.version>: is '1.0', expected 2.0");
-    g.members["asset"] = "{}";
-    EXPECT_EQ(problem(g), "<asset>: has no 'version'");
-    g.members["asset"] = R"({"version": "2.1", "minVersion": "2.1"})";
-    EXPECT_EQ(problem(g), "<asset.minVersion>: is '2.1', 2.0 is read");
+    EXPECT_EQ(gltfProblem("{}"), "is no glTF 2.0: it has no 'asset'");
+    EXPECT_EQ(gltfProblem(R"({"asset": {}})"), "<asset>: has no 'version'");
 }
 
 TEST(GltfErrors, RequiredExtensions) {
@@ -107,6 +105,18 @@ void expectForgiven(const GltfText& g, const std::string& wrong, const std::stri
     EXPECT_THAT(scene.report.forgiven,
                 testing::ElementsAre(testing::AllOf(HasSubstr(wrong), HasSubstr(instead))));
     EXPECT_EQ(problem(g, strictly()), wrong + " (an error because of --strict)");
+}
+
+/// What the arrays of a file show to be version 2 is read as it.
+TEST(GltfErrors, VersionsMayBeForgotten) {
+    GltfText g = triangle();
+    const char* const reading = "the file is read as glTF 2.0";
+    g.members["asset"] = "{}";
+    expectForgiven(g, "<asset>: has no 'version'", reading);
+    g.members["asset"] = R"({"version": "2.1", "minVersion": "2.1"})";
+    expectForgiven(g, "<asset.minVersion>: is '2.1'", reading);
+    g.members.erase("asset");
+    expectForgiven(g, "has no 'asset'", reading);
 }
 
 TEST(GltfErrors, OneNumberCostsItself) {
@@ -228,6 +238,11 @@ TEST(GltfErrors, Containers) {
     other[4] = 1;
     EXPECT_EQ(gltfProblem(other), "is of version 1 of the binary format, expected 2");
     other = whole;
+    other[8] = char(other[8] + 4); // as where a tool has shortened a chunk
+    const Scene shorter = loadGltfBytes(other);
+    EXPECT_EQ(shorter.triangles.size(), 1u);
+    EXPECT_THAT(shorter.report.forgiven, testing::ElementsAre(HasSubstr("its header states")));
+    other = whole;
     other[15] = 0x7F;
     EXPECT_THAT(gltfProblem(other), HasSubstr("chunk 0 states 21"));
     other = whole;
@@ -306,12 +321,15 @@ TEST(GltfUris, AreReadAsTheyAreMeant) {
     expectFound("a.bin", "../a.bin", "the file of the same name beside it is taken");
     expectFound("a.bin", R"(C:\\models\\a.bin)", "the file of the same name beside it is taken");
     expectFound("a.bin", "file:///home/me/a.bin", "the file of the same name beside it is taken");
+    expectFound("a b.bin", "./a%20b.bin?v=3", "the name before it is read");
+    expectFound("a?b.bin", "a%3Fb.bin");
+    expectFound("a#b.bin", "a#b.bin");
 }
 
 TEST(GltfUris, MayHaveNamesThatAreNoUtf8) {
     expectFound("caf\xE9.bin", "caf\xE9.bin", "they are read as characters of Latin-1");
     expectFound("caf\xE9.bin", "caf%E9.bin");
-    expectFound("caf\xC3\xA9.bin", "caf%E9.bin");
+    expectFound("caf\xC3\xA9.bin", "caf%E9.bin", "it is read so");
     GltfText g = triangle();
     g.arrays["nodes"][0] = "{\"mesh\": 0, \"name\": \"caf\xE9 \xFF\"}";
     expectForgiven(g, "has bytes that are no UTF-8", "they are read as characters of Latin-1");

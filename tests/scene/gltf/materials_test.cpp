@@ -219,6 +219,28 @@ TEST(GltfMaterials, ColorsOfVerticesAreFractions) {
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("colours of vertices")));
 }
 
+/// A fraction of the largest number of the type is what is meant, and bytes of 0 or 1 may be it.
+TEST(GltfMaterials, ColorsOfWholeNumbersAreFractionsWithoutSayingSo) {
+    const auto withColors = [](const auto& numbers) {
+        GltfText g = withMaterial("");
+        const size_t colors = g.addAccessor(numbers, "VEC4");
+        std::string& mesh = g.arrays["meshes"][0];
+        mesh.insert(mesh.find("\"POSITION\""), fmt::format(R"("COLOR_0": {}, )", colors));
+        return load(g);
+    };
+    const Scene bytes = withColors(std::vector<uint8_t>(12, 51));
+    const Scene words = withColors(std::vector<uint16_t>(12, 13107));
+    for (const Scene& scene : {bytes, words}) {
+        const glm::vec4 color = scene.attributes.at(scene.attributeCorners.at(0)[0]).color;
+        for (int i = 0; i < 4; ++i)
+            EXPECT_FLOAT_EQ(color[i], 0.2f);
+        EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("not 'normalized'")));
+    }
+    const Scene ones = withColors(std::vector<uint8_t>(12, 1));
+    EXPECT_EQ(ones.attributes.at(0).color, glm::vec4(1));
+    EXPECT_THAT(ones.report.forgiven, testing::IsEmpty());
+}
+
 /// A triangle whose unlit material has colours of corners, and emits 0.5, 0.25, 1 without them.
 Scene unlitWithColors(const std::vector<float>& colors, const std::string& type,
                       const std::string& picture) {

@@ -76,6 +76,21 @@ TEST(GltfNodes, OfTheChosenSceneAreShown) {
     EXPECT_EQ(problem(g, conventions), "has no scene 2: there are 2, from 0");
 }
 
+/// Exporters of several scenes leave empty ones in the file.
+TEST(GltfNodes, AnEmptySceneIsShownOnlyIfItIsChosen) {
+    GltfText g;
+    g.addTriangle();
+    g.arrays["scenes"].insert(g.arrays["scenes"].begin(), R"({"name": "empty"})");
+    g.members.erase("scene");
+    EXPECT_EQ(load(g).triangles.size(), 1u);
+    g.members["scene"] = "0";
+    EXPECT_TRUE(load(g).triangles.empty());
+    SceneConventions conventions;
+    conventions.selection.scene = 0;
+    g.members.erase("scene");
+    EXPECT_TRUE(load(g, conventions).triangles.empty());
+}
+
 TEST(GltfNodes, AllAreShownWithoutScenes) {
     GltfText g;
     g.addTriangle();
@@ -122,6 +137,9 @@ TEST(GltfNodes, InstancesOnTheGpu) {
     ASSERT_EQ(scene.triangles.size(), 2u);
     EXPECT_EQ(cornerInFile(scene), glm::vec3(2, 0, 9));
     EXPECT_EQ(scene.positions[scene.triangles[1].corner[1]], glm::vec3(3, 5, 9));
+    std::string& node = g.arrays["nodes"][0];
+    node.insert(node.find("\"SCALE\""), fmt::format("\"_COLOR_0\": {}, ", places));
+    EXPECT_THAT(load(g).report.ignored, Contains(HasSubstr("'_COLOR_0' of instances")));
     const size_t three = g.addAccessor<float>({1, 0, 0, 0, 5, 0, 0, 0, 0}, "VEC3");
     g.arrays["nodes"][0] = fmt::format(
         R"({{"mesh": 0, "extensions": {{"EXT_mesh_gpu_instancing":
