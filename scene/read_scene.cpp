@@ -19,7 +19,9 @@
 #include <cctype>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace stromboli {
 namespace {
@@ -33,6 +35,7 @@ struct Format {
     bool hasSelection = false;   ///< its files hold what FileSelection::option asks for
     bool hasDefinitions = false; ///< its files have values that FileSelection::definitions replace
     bool saysWhatIsUp = true;
+    bool mayBePacked = false; ///< by gzip; the ending is then .gz behind the format's own
 };
 
 constexpr Format kFormats[] = {
@@ -41,11 +44,11 @@ constexpr Format kFormats[] = {
     {"COLLADA archive (.zae)", ".zae", looksLikeColladaArchive, loadCollada},
     {"glTF 2.0 (.gltf)", ".gltf", looksLikeGltf, loadGltf, true},
     {"binary glTF 2.0 (.glb)", ".glb", looksLikeBinaryGltf, loadGltf, true},
-    {"PLY (.ply)", ".ply", looksLikePly, loadPly, false, false, false},
+    {"PLY (.ply)", ".ply", looksLikePly, loadPly, false, false, false, true},
     {"Mitsuba (XML whose root element is <scene>)", "", looksLikeMitsuba, loadMitsuba, false, true},
-    {"pbrt (.pbrt)", ".pbrt", looksLikePbrt, loadPbrt},
+    {"pbrt (.pbrt)", ".pbrt", looksLikePbrt, loadPbrt, false, false, true, true},
     // The last one: it has no mark of its own.
-    {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj, false, false, false},
+    {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj, false, false, false, true},
 };
 
 /// Told by its ending alone.
@@ -69,6 +72,11 @@ std::string suffixOf(const std::filesystem::path& file) {
 
 const Format* byName(const std::filesystem::path& file) {
     const std::string suffix = suffixOf(file);
+    if (suffix == ".gz") {
+        const std::string inner = suffixOf(file.stem());
+        for (const Format& format : kFormats)
+            if (format.mayBePacked && inner == format.suffix) return &format;
+    }
     for (const Format& format : kFormats)
         if (!suffix.empty() && suffix == format.suffix) return &format;
     return isAssimpFormat(suffix) ? &kByAssimp : nullptr;
@@ -86,6 +94,23 @@ std::string formatNames() {
     for (const Format& format : kFormats)
         names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
     return names + ", or a file " + std::string(kByAssimp.name);
+}
+
+/// Throws SceneError with the scenes that a folder has.
+[[noreturn]] void refuseFolder(const std::filesystem::path& folder) {
+    std::vector<std::string> scenes;
+    std::error_code failed; // a folder that cannot be read has none
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
+        if (byName(entry.path()) || suffixOf(entry.path()) == ".xml")
+            scenes.push_back(entry.path().filename().string());
+    std::ranges::sort(scenes);
+    constexpr size_t most = 5;
+    const size_t shown = std::min(scenes.size(), most);
+    std::string names;
+    for (size_t i = 0; i < shown; ++i)
+        names += fmt::format("{}{}", i == 0 ? "; it has " : ", ", scenes[i]);
+    if (scenes.size() > shown) names += fmt::format(" and {} others", scenes.size() - shown);
+    throw SceneError(folder.string(), 0, "", "is a directory, expected a scene file" + names);
 }
 
 } // namespace
@@ -115,6 +140,8 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
                                                              : std::move(scene);
     }
     const std::filesystem::path file = sceneFile(source);
+    std::error_code failed;
+    if (std::filesystem::is_directory(file, failed)) refuseFolder(file);
     const Format* format = byName(file);
     if (!format) format = byContent(file);
     if (!format)

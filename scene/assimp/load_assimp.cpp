@@ -39,6 +39,18 @@ bool hasColors(const aiScene& scene) {
                        [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
 }
 
+/// The header ends in the version, in three digits; files of later versions may be packed, and
+/// begin otherwise since version 5.
+bool isOfLateBlender(std::string_view beginning) {
+    constexpr std::string_view zstd = "\x28\xB5\x2F\xFD", magic = "BLENDER";
+    constexpr size_t at = 9, digits = 3;
+    if (beginning.starts_with(zstd)) return true;
+    if (!beginning.starts_with(magic) || beginning.size() < at + digits) return false;
+    const std::string_view version = beginning.substr(at, digits);
+    const bool isNumber = std::ranges::all_of(version, [](char c) { return c >= '0' && c <= '9'; });
+    return !isNumber || version > "279";
+}
+
 struct File {
     Imported scene;
     std::optional<glm::vec3> color; ///< of all surfaces, where an STL file states it
@@ -49,9 +61,13 @@ File import(const std::filesystem::path& file, build::Report& report) {
     if (!api.missing.empty())
         throw SceneError(file.string(), 0, "",
                          "is in a format that Assimp reads, but " + api.missing);
+    const std::string beginning = build::readFile(file, 64);
     // Assimp's readers end the program where a file is empty.
-    if (build::readFile(file, 1).empty())
-        throw SceneError(file.string(), 0, "", "is empty: expected a scene");
+    if (beginning.empty()) throw SceneError(file.string(), 0, "", "is empty: expected a scene");
+    if (endingOf(file) == ".blend" && isOfLateBlender(beginning))
+        throw SceneError(file.string(), 0, "",
+                         "is of Blender 2.80 or later, and Assimp reads files up to 2.79: expected "
+                         "what Blender exports of it, such as glTF 2.0 (.glb)");
     constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
     File found{{nullptr, api.releaseImport}, std::nullopt};
     if (endingOf(file) == ".stl") {

@@ -11,8 +11,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 namespace stromboli::build {
 namespace {
@@ -40,6 +42,20 @@ const char* kindOf(mode_t mode) {
     if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
     if (S_ISFIFO(mode)) return "a pipe";
     return "no regular file";
+}
+
+/// What stands under a file's name where the file itself has not been fetched; null if nothing says
+/// so.
+const char* standInFor(std::string_view bytes) {
+    if (bytes.starts_with("version https://git-lfs.github.com/spec/"))
+        return "is a pointer of Git LFS and not the file, which 'git lfs pull' fetches";
+    std::string first(bytes.substr(0, 64));
+    std::ranges::transform(first, first.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    first.erase(0, first.find_first_not_of(" \t\r\n"));
+    if (first.starts_with("<!doctype html") || first.starts_with("<html"))
+        return "is a web page (HTML) and not the file, as where a download has failed";
+    return nullptr;
 }
 
 } // namespace
@@ -83,6 +99,7 @@ std::string readFile(const std::filesystem::path& file, size_t most) {
         done += size_t(got);
     }
     bytes.resize(done);
+    if (const char* problem = standInFor(bytes)) fail(problem);
     return bytes;
 }
 

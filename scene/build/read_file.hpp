@@ -10,7 +10,7 @@ namespace stromboli::build {
 
 /// The bytes of a file, or its first `most` bytes. Throws SceneError if it cannot be read, is
 /// larger than the machine's memory, or is no regular file: folders, devices and pipes are refused
-/// at once.
+/// at once, and so is what stands in for a file that has not been fetched.
 std::string readFile(const std::filesystem::path& file,
                      size_t most = std::numeric_limits<size_t>::max());
 

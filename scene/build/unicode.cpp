@@ -86,6 +86,13 @@ static size_t lengthOfCharacter(std::string_view text) {
     return isWrong ? 0 : length;
 }
 
+std::optional<std::string> textInUtf8(std::string bytes) {
+    if (const std::optional<Utf16Beginning> utf16 = utf16Beginning(bytes))
+        return utf8FromUtf16(std::string_view(bytes).substr(utf16->marked ? 2 : 0), utf16->order);
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+    return bytes;
+}
+
 std::string utf8WithLatin1(std::string_view text) {
     std::string found;
     found.reserve(text.size());

@@ -22,6 +22,10 @@ std::optional<Utf16Beginning> utf16Beginning(std::string_view bytes);
 /// half a surrogate pair.
 std::optional<std::string> utf8FromUtf16(std::string_view bytes, ByteOrder order);
 
+/// The text of a file in UTF-8 without a byte order mark: files in UTF-16 are converted, all others
+/// are left as they are. Nothing if it begins as UTF-16 and is none.
+std::optional<std::string> textInUtf8(std::string bytes);
+
 /// The text with each byte that belongs to no character of UTF-8 as the character of that code
 /// (Latin-1), as older programs of western Europe write names.
 std::string utf8WithLatin1(std::string_view text);

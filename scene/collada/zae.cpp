@@ -9,6 +9,8 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -120,6 +122,23 @@ std::string rootOfManifest(const Archive& archive) {
     return path;
 }
 
+/// Models are handed on as archives of all kinds.
+[[noreturn]] void failWithoutDocument(const Archive& archive) {
+    const std::vector<std::string> names = archive.names();
+    const auto isScene = [](const std::string& name) {
+        const std::filesystem::path path(name);
+        constexpr std::string_view endings[] = {".glb", ".gltf", ".obj", ".fbx", ".pbrt",
+                                                ".xml", ".ply",  ".stl", ".3ds"};
+        return !name.starts_with("__MACOSX/") &&
+               std::ranges::find(endings, path.extension().string()) != std::end(endings);
+    };
+    const auto scene = std::ranges::find_if(names, isScene);
+    if (scene == names.end()) archive.fail("the archive holds no COLLADA document (.dae)");
+    archive.fail(fmt::format("the archive holds no COLLADA document (.dae), but '{}': expected the "
+                             "archive unpacked, and that file in it",
+                             scene->substr(0, 200)));
+}
+
 std::string onlyDocument(const Archive& archive, const std::string& file, build::Report& report) {
     std::vector<std::string> documents = archive.names();
     // macOS packs a companion of a few bytes for each file, of the same ending, in a folder of its
@@ -127,7 +146,7 @@ std::string onlyDocument(const Archive& archive, const std::string& file, build:
     std::erase_if(documents, [](const std::string& name) {
         return !endsInDae(name) || name.starts_with("__MACOSX/");
     });
-    if (documents.empty()) archive.fail("the archive holds no COLLADA document (.dae)");
+    if (documents.empty()) failWithoutDocument(archive);
     if (documents.size() > 1)
         archive.fail(fmt::format("the archive holds {} documents and no manifest.xml that says "
                                  "which is meant",

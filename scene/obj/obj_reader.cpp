@@ -1,6 +1,7 @@
 #include "scene/obj/obj_reader.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/gunzip.hpp"
 #include "scene/build/number_word.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/model/srgb.hpp"
@@ -31,7 +32,8 @@ float linearFromSrgb(double value) {
 } // namespace
 
 ObjReader::ObjReader(const std::filesystem::path& file, build::SceneBuilder& builder)
-    : file_(file), builder_(builder), statements_(file.string(), build::readFile(file)),
+    : file_(file), builder_(builder),
+      statements_(file.string(), build::gunzipped(build::readFile(file), file.string())),
       materials_(file, builder), polygons_(lists_.mesh, builder.report()) {}
 
 void ObjReader::read() {

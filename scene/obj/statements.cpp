@@ -27,19 +27,14 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-std::string inUtf8(const std::string& file, std::string text) {
-    if (const auto utf16 = build::utf16Beginning(text)) {
-        std::string_view body = text;
-        if (utf16->marked) body.remove_prefix(2);
-        std::optional<std::string> converted = build::utf8FromUtf16(body, utf16->order);
-        if (!converted) build::FilePlace{file, 0, ""}.fail("begins as UTF-16, but is none");
-        return std::move(*converted);
-    }
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+std::string inUtf8(const std::string& file, std::string bytes) {
+    std::optional<std::string> converted = build::textInUtf8(std::move(bytes));
+    if (!converted) build::FilePlace{file, 0, ""}.fail("begins as UTF-16, but is none");
+    std::string& text = *converted;
     // How programs of other times end or fill up a file.
     while (text.ends_with('\0') || text.ends_with('\x1A'))
         text.pop_back();
-    return text;
+    return std::move(text);
 }
 
 /// Those of Wavefront's specification (version 3.0).

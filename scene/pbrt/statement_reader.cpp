@@ -4,6 +4,7 @@
 #include "scene/build/number_word.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/build/tolerate.hpp"
+#include "scene/build/unicode.hpp"
 
 #include <fmt/format.h>
 
@@ -97,9 +98,11 @@ std::vector<Statement> StatementReader::read(const std::filesystem::path& file) 
 }
 
 void StatementReader::readFile(const std::filesystem::path& file, size_t depth) {
-    const std::string text = build::gunzipped(build::readFile(file), file.string());
+    const std::optional<std::string> text =
+        build::textInUtf8(build::gunzipped(build::readFile(file), file.string()));
+    if (!text) build::FilePlace{file.string(), 0, ""}.fail("begins as UTF-16, but is none");
     open_.push_back(file);
-    readText(file.string(), text, depth);
+    readText(file.string(), *text, depth);
     open_.pop_back();
 }
 

@@ -1,10 +1,12 @@
 #include "scene/xml/parse.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/unicode.hpp"
 #include "scene/xml/markup_limits.hpp"
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string_view>
 
 namespace stromboli::xml {
@@ -45,6 +47,11 @@ bool isCutShort(std::string_view text) {
 } // namespace
 
 void parse(tinyxml2::XMLDocument& document, const std::string& file, const std::string& text) {
+    if (build::utf16Beginning(text)) {
+        const std::optional<std::string> converted = build::textInUtf8(text);
+        if (!converted) throw SceneError(file, 0, "", "begins as UTF-16, but is none");
+        return parse(document, file, *converted);
+    }
     checkMarkupLimits(file, text);
     document.Parse(text.data(), text.size());
     if (document.Error())

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -139,7 +140,34 @@ TEST_F(ReadScene, FilesThatCannotBeRead) {
     for (const char* name : {"none.dae", "none.xyz", "none"})
         EXPECT_THAT(messageOf((folder_ / name).string()), HasSubstr("there is no such file"))
             << name;
-    EXPECT_THAT(messageOf(folder_.string()), HasSubstr("is a directory"));
+}
+
+TEST_F(ReadScene, OfAFolderItsScenesAreNamed) {
+    std::filesystem::create_directories(folder_ / "room" / "maps");
+    EXPECT_THAT(messageOf((folder_ / "room").string()),
+                testing::EndsWith("is a directory, expected a scene file"));
+    for (const char* name : {"room/b.obj", "room/a.GLTF", "room/a.bin", "room/c.xml"})
+        write(name, "");
+    EXPECT_THAT(messageOf((folder_ / "room").string()),
+                testing::EndsWith("expected a scene file; it has a.GLTF, b.obj, c.xml"));
+    for (const char* name : {"d.fbx", "e.stl", "f.ply"})
+        write(std::string("room/") + name, "");
+    EXPECT_THAT(messageOf((folder_ / "room").string()),
+                testing::EndsWith("d.fbx, e.stl and 1 others"));
+}
+
+TEST_F(ReadScene, SomeFormatsMayBePackedByGzip) {
+    const std::string obj = write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    const std::string ply = write(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                 "end_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n");
+    for (const std::string& file : {obj, ply}) {
+        ASSERT_EQ(std::system(("gzip -f " + file).c_str()), 0);
+        EXPECT_EQ(readScene(file + ".gz").triangles.size(), 1u) << file;
+    }
+    EXPECT_THAT(messageOf(write("a.dae.gz", "\x1F\x8B")),
+                HasSubstr("is in no format that is read"));
 }
 
 TEST_F(ReadScene, BundledScenesByNameFromAnyFolder) {

@@ -144,6 +144,22 @@ TEST_F(AssimpFiles, WhatIsEmptyIsAnError) {
         EXPECT_THROW(read(write("short.stl", bytes)), SceneError);
 }
 
+TEST_F(AssimpFiles, BlenderFilesOfTodayAreToldToBeExported) {
+    if (!read(write("a.stl", kStl))) GTEST_SKIP() << "Assimp is not installed";
+    const auto messageOf = [&](const std::string& bytes) -> std::string {
+        try {
+            read(write("a.blend", bytes));
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    for (const char* bytes :
+         {"BLENDER-v293", "BLENDER-v306 ", "BLENDER17-01v0500", "\x28\xB5\x2F\xFD"})
+        EXPECT_THAT(messageOf(bytes), HasSubstr("glTF 2.0 (.glb)")) << bytes;
+    EXPECT_THAT(messageOf("BLENDER-v279"), testing::Not(HasSubstr("glTF")));
+}
+
 /// Assimp joins vertices whose colours differ, and all facets around one had the colour of the
 /// first.
 TEST_F(AssimpFiles, FacetsOfStlHaveTheirOwnColours) {

@@ -47,6 +47,19 @@ TEST_F(ReadFile, GivesItsBytes) {
     EXPECT_EQ(readFile(folder_ / "none"), "");
 }
 
+/// Whoever clones or downloads without care has these under the names of scenes and pictures.
+TEST_F(ReadFile, WhatStandsInForAFileIsRefused) {
+    const auto messageOfText = [&](const char* text) {
+        std::ofstream(folder_ / "some.glb", std::ios::binary) << text;
+        return messageOf(folder_ / "some.glb");
+    };
+    EXPECT_THAT(messageOfText("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n"),
+                AllOf(HasSubstr("some.glb: is a pointer of Git LFS"), HasSubstr("git lfs pull")));
+    for (const char* page : {"<!DOCTYPE html>\n<html></html>", "\n <HTML><body>404</body></HTML>"})
+        EXPECT_THAT(messageOfText(page), HasSubstr("is a web page"));
+    EXPECT_EQ(messageOfText("<?xml version=\"1.0\"?><COLLADA/>"), "no error");
+}
+
 TEST_F(ReadFile, WhatIsNoFileIsRefused) {
     EXPECT_THAT(messageOf(folder_ / "gone"), AllOf(HasSubstr("gone"), HasSubstr("No such file")));
     EXPECT_THAT(messageOf(folder_), HasSubstr("is a directory"));

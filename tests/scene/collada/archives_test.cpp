@@ -96,6 +96,8 @@ TEST_F(Archives, WhatCannotBeToldIsAnError) {
     EXPECT_THAT(error(), HasSubstr("holds 2 documents and no manifest.xml"));
     pack({{"a.png", "x"}});
     EXPECT_THAT(error(), HasSubstr("holds no COLLADA document"));
+    pack({{"a.png", "x"}, {"__MACOSX/b.obj", ""}, {"a/room.obj", "v 0 0 0"}});
+    EXPECT_THAT(error(), HasSubstr("but 'a/room.obj': expected the archive unpacked"));
     pack({{"a.dae", document()}, {"manifest.xml", manifest("b.dae")}});
     EXPECT_THAT(error(), HasSubstr("names 'b.dae', which it does not hold"));
     for (const char* text : {"", "<dae_root/>", "<root>a.dae</root>", "a.dae"}) {

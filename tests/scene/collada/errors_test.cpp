@@ -25,7 +25,8 @@ TEST(Errors, TextThatIsNotCollada) {
     EXPECT_THAT(errorOf(std::string()), HasSubstr("empty"));
     EXPECT_THAT(errorOf(" \n"), HasSubstr("empty"));
     EXPECT_THAT(errorOf("<?xml version=\"1.0\"?>\n<!-- nothing -->"), HasSubstr("no elements"));
-    EXPECT_THAT(errorOf("<html>\n</html>"), MatchesRegex(".*:1: <html>: .*must be <COLLADA>"));
+    EXPECT_THAT(errorOf("<scenery>\n</scenery>"),
+                MatchesRegex(".*:1: <scenery>: .*must be <COLLADA>"));
     EXPECT_THAT(errorOf("<COLLADA>\n<a>\n</b></COLLADA>"),
                 MatchesRegex(".*:[23]: not well-formed XML: .*"));
     EXPECT_THAT(errorOf("<COLLADA/>"), HasSubstr("has no <scene>"));

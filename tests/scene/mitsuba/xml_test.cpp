@@ -158,5 +158,17 @@ TEST(MitsubaXml, NarrowSpectraHaveTheirHue) {
     EXPECT_EQ(green.z, 0); // outside of the primaries
 }
 
+/// Tools of Windows write it, and say so by a mark or the first character alone.
+TEST(MitsubaXml, MayBeInUtf16) {
+    const std::string text = sceneText("<shape type=\"sphere\"/>");
+    std::string wide;
+    for (const char c : text)
+        wide += {c, '\0'};
+    for (const std::string mark : {"", "\xFF\xFE"})
+        EXPECT_EQ(loadText(mark + wide).spheres.size(), 1u);
+    EXPECT_THAT(problemOf("\xFF\xFE" + wide.substr(0, wide.size() - 1)),
+                testing::HasSubstr("begins as UTF-16, but is none"));
+}
+
 } // namespace
 } // namespace stromboli::test

@@ -131,6 +131,18 @@ TEST(PbrtSyntax, FilesMayBePackedByGzip) {
     EXPECT_THAT(syntaxProblem("Include \"packed.pbrt.gz\""), HasSubstr("damaged"));
 }
 
+/// Editors of Windows mark a text, or write it in UTF-16.
+TEST(PbrtSyntax, FilesMayBeMarkedOrInUtf16) {
+    for (const std::string& text : {std::string("\xEF\xBB\xBFTranslate 1 2 3 "),
+                                    std::string("\xFF\xFEI\0d\0e\0n\0t\0i\0t\0y\0", 18)}) {
+        writeFile("marked.pbrt", text);
+        EXPECT_EQ(statementsOf("Include \"marked.pbrt\"").size(), 1u);
+    }
+    writeFile("marked.pbrt", "\xFF\xFEI");
+    EXPECT_THAT(syntaxProblem("Include \"marked.pbrt\""),
+                HasSubstr("begins as UTF-16, but is none"));
+}
+
 pbrt::Version versionOf(const std::string& text) {
     return pbrt::versionOf(statementsOf(text)).version;
 }
