@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <cstring>
+#include <limits>
 #include <new>
 
 namespace stromboli::images {
@@ -14,7 +15,8 @@ constexpr uint64_t kDeflateRatio = 1032;
 struct PngSource {
     std::string_view bytes;
     size_t next = 0;
-    std::string error;
+    std::string error, damage;
+    uint64_t rowsRead = 0; ///< of all passes of interlaced pictures
 };
 
 void onPngError(png_structp png, png_const_charp message) {
@@ -22,7 +24,18 @@ void onPngError(png_structp png, png_const_charp message) {
     png_longjmp(png, 1);
 }
 
-void onPngWarning(png_structp, png_const_charp) {}
+/// A wrong checksum of pixels is the only warning that may be about what is seen. Names of chunks
+/// that matter begin with a capital.
+void onPngWarning(png_structp png, png_const_charp message) {
+    const std::string_view text(message);
+    const bool matters = !text.empty() && text[0] >= 'A' && text[0] <= 'Z';
+    auto* source = static_cast<PngSource*>(png_get_error_ptr(png));
+    if (matters && text.ends_with("CRC error")) source->damage = text;
+}
+
+void onPngRow(png_structp png, png_uint_32, int) {
+    ++static_cast<PngSource*>(png_get_io_ptr(png))->rowsRead;
+}
 
 void readFromMemory(png_structp png, png_bytep to, size_t count) {
     auto* source = static_cast<PngSource*>(png_get_io_ptr(png));
@@ -36,9 +49,13 @@ struct PngReader {
     png_structp png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, onPngError, onPngWarning);
     png_infop info = png_create_info_struct(png);
-    explicit PngReader(std::string_view bytes) : source{bytes, 0, {}} {
+    explicit PngReader(std::string_view bytes) : source{bytes, 0, {}, {}, 0} {
         if (!info) throw std::bad_alloc();
         png_set_read_fn(png, &source, readFromMemory);
+        png_set_read_status_fn(png, onPngRow);
+        // What libpng asks for at a time is lost where the file ends within it.
+        png_set_compression_buffer_size(png, 512);
+        png_set_crc_action(png, PNG_CRC_WARN_USE, PNG_CRC_DEFAULT);
     }
     ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
@@ -67,15 +84,20 @@ bool readPngRows(png_structp png, png_bytepp rows) {
     return true;
 }
 
+/// Reads as many rows as there are, and whether these are all. What is missing stays mid grey, as
+/// it does in JPEG pictures.
 template <class Value>
 bool readPngValues(PngReader& reader, Picture& picture) {
-    std::vector<Value> values(picture.texelCount() * 4);
+    constexpr Value most = std::numeric_limits<Value>::max();
+    std::vector<Value> values(picture.texelCount() * 4, most / 2);
+    for (size_t i = 3; i < values.size(); i += 4)
+        values[i] = most;
     std::vector<png_bytep> rows(picture.height);
     for (size_t y = 0; y < rows.size(); ++y)
         rows[y] = reinterpret_cast<png_bytep>(&values[y * picture.width * 4]);
-    if (!readPngRows(reader.png, rows.data())) return false;
+    const bool areAll = readPngRows(reader.png, rows.data());
     picture.values = std::move(values);
-    return true;
+    return areAll;
 }
 
 } // namespace
@@ -93,7 +115,9 @@ Picture decodePng(std::string_view bytes, const std::string& name) {
                 leastBits / 8 / kDeflateRatio);
     const bool read =
         deep ? readPngValues<uint16_t>(reader, picture) : readPngValues<uint8_t>(reader, picture);
-    if (!read) failToDecode(name, "PNG", reader.source.error);
+    if (!read && reader.source.rowsRead == 0) failToDecode(name, "PNG", reader.source.error);
+    const std::string& problem = read ? reader.source.damage : reader.source.error;
+    if (!problem.empty()) picture.addFault(build::Shortfall::PicturePart, problem);
     return picture;
 }
 

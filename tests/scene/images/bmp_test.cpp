@@ -55,6 +55,38 @@ TEST(Bitmaps, MayNameColoursOfATable) {
                 ElementsAre(6, 5, 4, 255, 3, 2, 1, 255));
 }
 
+/// The first pixel is in the highest bits, and rows are filled up to four bytes.
+TEST(Bitmaps, MayHaveSeveralPixelsInAByte) {
+    const std::string table("\x01\x02\x03\0\x04\x05\x06\0", 8);
+    EXPECT_THAT(texelsOf(bitmap(3, 1, 1, std::string("\xA0\0\0\0", 4), table)),
+                ElementsAre(6, 5, 4, 255, 3, 2, 1, 255, 6, 5, 4, 255));
+    EXPECT_THAT(texelsOf(bitmap(3, 1, 4, std::string("\x01\x10\0\0", 4), table)),
+                ElementsAre(3, 2, 1, 255, 6, 5, 4, 255, 6, 5, 4, 255));
+}
+
+TEST(Bitmaps, MayHaveSixteenBitsOfFivesOrByMasks) {
+    // 31 of red and 16 of blue; without a word about it the highest bit has no meaning.
+    EXPECT_THAT(texelsOf(bitmap(1, 1, 16, std::string("\x10\xFC\0\0", 4))),
+                ElementsAre(255, 0, 132, 255));
+    // As if the masks were a table: they stand where one would.
+    std::string masks;
+    for (const uint32_t mask : {0xF800u, 0x07E0u, 0x001Fu})
+        put(masks, mask, 4);
+    EXPECT_THAT(texelsOf(bitmap(1, 1, 16, std::string("\xF0\x07\0\0", 4), masks, 3)),
+                ElementsAre(0, 255, 132, 255));
+}
+
+/// Runs, single pixels, ends of lines, steps and the end.
+TEST(Bitmaps, MayBePackedInRuns) {
+    const std::string table("\0\0\0\0\1\1\1\0\2\2\2\0", 12);
+    const std::string runs("\3\1\0\0\0\3\1\2\1\0\0\0\0\2\2\0\1\2\0\1\3\2", 22);
+    const std::vector<uint8_t> texels = texelsOf(bitmap(3, 3, 8, runs, table, 1));
+    std::vector<int> colors;
+    for (size_t i = 0; i < texels.size(); i += 4)
+        colors.push_back(texels[i]);
+    EXPECT_THAT(colors, ElementsAre(0, 0, 2, 1, 2, 1, 1, 1, 1));
+}
+
 std::string problemOf(const std::string& bytes) {
     try {
         decodePicture(bytes, "picture");
@@ -66,7 +98,9 @@ std::string problemOf(const std::string& bytes) {
 
 TEST(Bitmaps, WrongOnesSayWhy) {
     EXPECT_THAT(problemOf("BM"), HasSubstr("the header is truncated"));
-    EXPECT_THAT(problemOf(bitmap(2, 2, 16, kRows)), HasSubstr("pixels have 16 bits"));
+    EXPECT_THAT(problemOf(bitmap(2, 2, 12, kRows)), HasSubstr("pixels have 12 bits"));
+    EXPECT_THAT(problemOf(bitmap(200, 200, 8, "\1\0", std::string(8, '\0'), 1)),
+                HasSubstr("cannot hold"));
     EXPECT_THAT(problemOf(bitmap(2, 2, 24, kRows, "", 1)), HasSubstr("packed in way 1"));
     EXPECT_THAT(problemOf(bitmap(200, 2, 24, kRows)), HasSubstr("truncated"));
     EXPECT_THAT(problemOf(bitmap(-2, 2, 24, kRows)), HasSubstr("width is negative"));
@@ -76,13 +110,16 @@ TEST(Bitmaps, WrongOnesSayWhy) {
 
 /// No byte makes the reader do anything but read or refuse.
 TEST(Bitmaps, AnyByteMayBeWrong) {
-    const std::string good = bitmap(2, 2, 24, kRows);
-    for (size_t i = 2; i < good.size(); ++i)
-        for (int bit = 0; bit < 8; ++bit) {
-            std::string bad = good;
-            bad[i] = char(bad[i] ^ 1 << bit);
-            problemOf(bad);
-        }
+    const std::string runs("\3\1\0\0\0\3\1\2\1\0\0\1", 12);
+    for (const std::string& good :
+         {bitmap(2, 2, 24, kRows), bitmap(3, 2, 8, runs, std::string(12, '\1'), 1),
+          bitmap(2, 2, 16, kRows, std::string(12, '\1'), 3)})
+        for (size_t i = 2; i < good.size(); ++i)
+            for (int bit = 0; bit < 8; ++bit) {
+                std::string bad = good;
+                bad[i] = char(bad[i] ^ 1 << bit);
+                problemOf(bad);
+            }
 }
 
 } // namespace

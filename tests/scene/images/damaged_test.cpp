@@ -84,9 +84,10 @@ TEST(DamagedPictures, TruncatedAnywhere) {
         for (const double part : {0.1, 0.5, 0.9}) {
             const std::string message =
                 messageOf(file.substr(0, size_t(double(file.size()) * part)));
-            // What there is of a JPEG picture of it is shown; formats_test.cpp sees that it is
-            // said.
-            const bool isShown = file.starts_with("\xFF\xD8") && part > 0.2;
+            // What there is of a JPEG or PNG picture of it is shown; formats_test.cpp sees that
+            // it is said.
+            const bool isPart = file.starts_with("\xFF\xD8") || file.starts_with("\x89PNG");
+            const bool isShown = isPart && part > 0.2;
             EXPECT_THAT(message, HasSubstr(isShown ? "" : "a.png: ")) << part;
             EXPECT_THAT(message, testing::Not(HasSubstr("\n")));
         }

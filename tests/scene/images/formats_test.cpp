@@ -41,6 +41,38 @@ TEST(Formats, PngOfEightBits) {
     EXPECT_THAT(valuesOf<Bytes>(test::png8(1, 1, 2, {9, 10})), ElementsAre(9, 9, 9, 10));
 }
 
+/// Rows that are there are shown, and what is missing is mid grey.
+TEST(Formats, PngThatEndsTooEarlyIsShownAsFarAsItGoes) {
+    Bytes noise(64 * 64 * 3);
+    uint32_t random = 1;
+    for (uint8_t& value : noise)
+        value = uint8_t((random = random * 1664525u + 1013904223u) >> 24);
+    const std::string whole = test::png8(64, 64, 3, noise);
+    for (const size_t cut : {whole.size() / 2, size_t(12)}) { // the last chunk has twelve bytes
+        const Picture picture = decodePicture(whole.substr(0, whole.size() - cut), "picture");
+        const auto& values = std::get<Bytes>(picture.values);
+        EXPECT_EQ(values.at(0), noise[0]);
+        EXPECT_EQ(values.at(63 * 64 * 4), cut > 12 ? 127 : noise[63 * 64 * 3]);
+        EXPECT_EQ(values.at(63 * 64 * 4 + 3), 255);
+        ASSERT_EQ(picture.faults.size(), 1u);
+        EXPECT_EQ(picture.faults[0].kind, build::Shortfall::PicturePart);
+    }
+}
+
+/// Other programs do not look at checksums.
+TEST(Formats, PngOfWrongChecksumsIsShown) {
+    const std::string whole = test::png8(1, 1, 3, {1, 2, 3});
+    const size_t header = 8 + 8 + 13, data = whole.find("IEND") - 8;
+    for (const size_t checksum : {header, data}) {
+        std::string damaged = whole;
+        damaged[checksum] = char(damaged[checksum] ^ 1);
+        const Picture picture = decodePicture(damaged, "picture");
+        EXPECT_THAT(std::get<Bytes>(picture.values), ElementsAre(1, 2, 3, 255));
+        ASSERT_EQ(picture.faults.size(), 1u);
+        EXPECT_THAT(picture.faults[0].problem, testing::HasSubstr("CRC error"));
+    }
+}
+
 TEST(Formats, PngOfSixteenBits) {
     EXPECT_THAT(valuesOf<Words>(test::png16(1, 1, 3, {1, 256, 65535})),
                 ElementsAre(1, 256, 65535, 65535));
