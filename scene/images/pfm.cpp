@@ -31,7 +31,10 @@ float floatAt(std::string_view bytes, size_t at, bool isLittle) {
 /// its size says nothing, as nearly all programs have it.
 Picture decodePfm(std::string_view bytes, const std::string& name) {
     std::string_view rest = bytes;
-    const size_t channels = takeWord(rest) == "PF" ? 3 : 1;
+    const std::string_view kind = takeWord(rest);
+    if (kind != "PF" && kind != "Pf" && kind != "PF4")
+        failToDecode(name, "PFM", fmt::format("it begins with '{}'", kind.substr(0, 40)));
+    const size_t channels = kind == "PF4" ? 4 : kind == "PF" ? 3 : 1; // PF4: with alpha
     uint64_t sides[2] = {0, 0};
     for (uint64_t& side : sides) {
         const std::string_view word = takeWord(rest);
@@ -50,8 +53,8 @@ Picture decodePfm(std::string_view bytes, const std::string& name) {
         for (uint64_t column = 0; column < width; ++column) {
             const size_t at = 4 * channels * ((height - 1 - row) * width + column);
             for (size_t channel = 0; channel < 3; ++channel)
-                values.push_back(floatAt(rest, at + 4 * (channels == 3 ? channel : 0), isLittle));
-            values.push_back(1);
+                values.push_back(floatAt(rest, at + 4 * (channels >= 3 ? channel : 0), isLittle));
+            values.push_back(channels == 4 ? floatAt(rest, at + 12, isLittle) : 1);
         }
     return picture;
 }

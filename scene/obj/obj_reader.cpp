@@ -42,9 +42,19 @@ void ObjReader::read() {
     if (lists_.mesh.positions.empty())
         build::FilePlace{file_.string(), 0, ""}.fail(
             "has no vertex (a line 'v X Y Z'): it is empty, or no OBJ file");
+    requireFaces();
     takePaint();
     finishColors();
     groups_.place(file_.string(), lists_, materials_, builder_);
+}
+
+/// Points, lines and curved surfaces leave nothing to show.
+void ObjReader::requireFaces() const {
+    if (cornersRead_ > 0 || builder_.report().firstError()) return;
+    build::FilePlace{file_.string(), 0, ""}.fail(
+        fmt::format("has {} vertices and no face: expected a line 'f V1 V2 V3' (points, lines and "
+                    "curves are not shown)",
+                    lists_.mesh.positions.size()));
 }
 
 void ObjReader::readStatement(std::string_view keyword) {

@@ -34,6 +34,7 @@ class ObjReader {
     uint32_t index(std::string_view corner, std::string_view word, size_t count, const char* what);
     void makeUniform(std::vector<build::Corner>& corners);
     void useMaterial();
+    void requireFaces() const;
     void readPaint();
     void takePaint();
     void finishColors();

@@ -147,6 +147,9 @@ TEST(Formats, PfmFromTheBottomUp) {
                 ElementsAre(2, 2, 1, 1, 1, 1, 2, 1));
     const std::string bigOne("\x3f\x80\x00\x00", 4);
     EXPECT_THAT(valuesOf<Floats>("Pf 1 1 1\n" + bigOne), ElementsAre(1, 1, 1, 1));
+    EXPECT_THAT(valuesOf<Floats>("PF4\n1 1\n-1.0\n" + one + two + one + two),
+                ElementsAre(1, 2, 1, 2));
+    EXPECT_THROW(valuesOf<Floats>("PF9\n1 1\n-1\n" + one + one + one), SceneError);
     EXPECT_THROW(valuesOf<Floats>("PF\n9 9\n-1\n" + one), SceneError);
     EXPECT_THROW(valuesOf<Floats>("PF\nx 9\n-1\n" + one), SceneError);
 }

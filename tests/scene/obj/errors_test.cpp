@@ -26,6 +26,7 @@ TEST(ObjErrors, NameFileAndLine) {
         {"v 0 zero 0\n", "a.obj:1: <v>: 'zero' is no finite number"},
         {"v 0 1e999 0\n", "'1e999' is no finite number"},
         {"\xFF\xFEv", "begins as UTF-16, but is none"},
+        {kTriangle + "p 1 2 3\nl 1 2\n", "a.obj: has 3 vertices and no face: expected a line 'f"},
     };
     for (const auto& [text, message] : cases)
         EXPECT_THAT(objErrorOf(text), HasSubstr(message)) << text;
