@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -102,13 +103,27 @@ Companion companionNamed(const fs::path& folder, std::string_view written) {
     return {};
 }
 
-/// The endings of pictures that are read.
-constexpr std::string_view kPictureEndings[] = {".png", ".jpg", ".jpeg", ".webp", ".tga",
-                                                ".bmp", ".gif", ".exr",  ".hdr"};
+/// The endings of pictures that are read, and those of others that scenes name.
+constexpr std::string_view kRead[] = {".png", ".jpg", ".jpeg", ".webp", ".tga",
+                                      ".bmp", ".gif", ".exr",  ".hdr"};
+constexpr std::string_view kOthers[] = {".tif", ".tiff", ".psd", ".dds", ".ktx2", ".pfm"};
 
-} // namespace
+/// What is left where a name ends in a dot and some letters.
+std::string_view withoutEnding(std::string_view name) {
+    const size_t dot = name.find_last_of('.');
+    const bool isEnding =
+        dot != std::string_view::npos && name.find_first_of("/\\", dot) == std::string_view::npos;
+    return isEnding ? name.substr(0, dot) : name;
+}
 
-Companion companion(const fs::path& folder, std::string_view written) {
+bool endsAsPicture(std::string_view name) {
+    const std::string ending = inSmallLetters(std::string(name.substr(withoutEnding(name).size())));
+    return std::ranges::find(kRead, ending) != std::end(kRead) ||
+           std::ranges::find(kOthers, ending) != std::end(kOthers);
+}
+
+/// As the name is written, or else with the codes of a URI, or in Latin-1.
+Companion companionRead(const fs::path& folder, std::string_view written) {
     Companion found = companionNamed(folder, written);
     if (found.path) return found;
     const std::pair<std::string, std::string_view> others[] = {
@@ -124,16 +139,20 @@ Companion companion(const fs::path& folder, std::string_view written) {
     return {};
 }
 
+} // namespace
+
+Companion companion(const fs::path& folder, std::string_view written) {
+    if (endsAsPicture(written)) return pictureCompanion(folder, written);
+    return companionRead(folder, written);
+}
+
 Companion pictureCompanion(const fs::path& folder, std::string_view written) {
-    Companion found = companion(folder, written);
-    if (found.path) return found;
-    std::string name(written);
-    const size_t dot = name.find_last_of('.');
-    if (dot != std::string::npos && name.find_first_of("/\\", dot) == std::string::npos)
-        name.resize(dot);
-    if (name.empty()) return {};
-    for (const std::string_view ending : kPictureEndings)
-        if (const Companion other = companion(folder, name + std::string(ending)); other.path)
+    Companion found = companionRead(folder, written);
+    const std::string_view name = withoutEnding(written);
+    if (found.path || name.empty()) return found;
+    for (const std::string_view ending : kRead)
+        if (const Companion other = companionRead(folder, fmt::format("{}{}", name, ending));
+            other.path)
             return {other.path, fmt::format("{} is not there", quoted(written)),
                     "the picture of the same name with another ending is taken"};
     return {};

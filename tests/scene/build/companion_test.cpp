@@ -67,7 +67,9 @@ TEST(Companions, OfPicturesMayHaveAnotherEnding) {
     EXPECT_EQ(pictureCompanion("", "C:\\maps\\wall.tif").path, "wall.jpg");
     EXPECT_EQ(pictureCompanion("", "wall").path, "wall.jpg");
     EXPECT_FALSE(pictureCompanion("", "wall.tif").problem.empty());
-    EXPECT_FALSE(companion("", "wall.tif").path);
+    EXPECT_EQ(companion("", "wall.tif").path, "wall.jpg");
+    EXPECT_FALSE(companion("", "wall.stl").path);
+    EXPECT_FALSE(companion("", "wall").path);
     EXPECT_FALSE(pictureCompanion("", "floor.tif").path);
     EXPECT_FALSE(pictureCompanion("", ".tif").path);
 }

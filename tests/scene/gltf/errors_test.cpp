@@ -323,6 +323,7 @@ TEST(GltfUris, AreReadAsTheyAreMeant) {
     expectFound("a.bin", "file:///home/me/a.bin", "the file of the same name beside it is taken");
     expectFound("a b.bin", "./a%20b.bin?v=3", "the name before it is read");
     expectFound("a?b.bin", "a%3Fb.bin");
+    expectFound("a.jpg", "a.ktx2", "with another ending is taken");
     expectFound("a#b.bin", "a#b.bin");
 }
 
