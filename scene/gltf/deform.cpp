@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace stromboli::gltf {
 namespace {
@@ -21,9 +22,10 @@ void storeVector(Values& values, size_t i, const glm::dvec3& v) {
         values.numbers[i * values.width + size_t(k)] = v[k];
 }
 
-/// The weighted sum of the joints' matrices. Files round weights; their sum is made 1.
-glm::dmat4 blended(const Primitive& p, size_t vertex, const std::vector<glm::dmat4>& joints,
-                   const Element& element) {
+/// The weighted sum of the joints' matrices. Files round weights; their sum is made 1. Nothing
+/// where all are 0.
+std::optional<glm::dmat4> blended(const Primitive& p, size_t vertex,
+                                  const std::vector<glm::dmat4>& joints, const Element& element) {
     glm::dmat4 sum(0.0);
     double total = 0;
     for (size_t set = 0; set < p.joints.size(); ++set)
@@ -37,7 +39,12 @@ glm::dmat4 blended(const Primitive& p, size_t vertex, const std::vector<glm::dma
             sum += weight * joints[size_t(joint)];
             total += weight;
         }
-    return total > 0 ? sum / total : glm::dmat4(1);
+    return total > 0 ? std::optional(sum / total) : std::nullopt;
+}
+
+glm::dmat4 ofFirstJoint(const Primitive& p, size_t vertex, const std::vector<glm::dmat4>& joints) {
+    const double joint = p.joints[0].at(vertex)[0];
+    return joint >= 0 && joint < double(joints.size()) ? joints[size_t(joint)] : joints[0];
 }
 
 } // namespace
@@ -57,9 +64,12 @@ void applyTargets(Primitive& p, std::span<const double> weights) {
     }
 }
 
-void applySkin(Primitive& p, const std::vector<glm::dmat4>& joints, const Element& element) {
+size_t applySkin(Primitive& p, const std::vector<glm::dmat4>& joints, const Element& element) {
+    size_t weightless = 0;
     for (size_t i = 0; i < p.vertexCount; ++i) {
-        const glm::dmat4 m = blended(p, i, joints, element);
+        const std::optional<glm::dmat4> sum = blended(p, i, joints, element);
+        weightless += !sum;
+        const glm::dmat4 m = sum ? *sum : ofFirstJoint(p, i, joints);
         const glm::dmat3 linear(m);
         storeVector(p.positions, i, m * glm::dvec4(p.positions.vec3(i), 1));
         // The cofactors are the inverse transpose up to a factor, whose sign matters here only.
@@ -73,6 +83,7 @@ void applySkin(Primitive& p, const std::vector<glm::dmat4>& joints, const Elemen
             p.tangents->numbers[i * 4 + 3] *= sign;
         }
     }
+    return weightless;
 }
 
 } // namespace stromboli::gltf

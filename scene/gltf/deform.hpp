@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,9 @@ void applyTargets(Primitive& primitive, std::span<const double> weights);
 
 /// Moves each vertex by the mean of the joints' matrices, with its weights: linear blend skinning.
 /// Normals turn by the inverse transpose of that mean. `joints`: from the mesh's space to where the
-/// skin is placed. Throws SceneError, at `element`, for joints that are not there.
-void applySkin(Primitive& primitive, const std::vector<glm::dmat4>& joints, const Element& element);
+/// skin is placed. Returns how many vertices have no weight: they move with their first joint.
+/// Throws SceneError, at `element`, for joints that are not there.
+size_t applySkin(Primitive& primitive, const std::vector<glm::dmat4>& joints,
+                 const Element& element);
 
 } // namespace stromboli::gltf

@@ -63,8 +63,12 @@ std::optional<BuiltMesh> Meshes::make(const Element& element, const Deformation&
             std::optional<Primitive> primitive = readPrimitive(context_, at, material.uvSets.sets);
             if (!primitive) continue;
             applyTargets(*primitive, weights);
-            if (!deformation.joints.empty() && !primitive->joints.empty())
-                applySkin(*primitive, deformation.joints, at);
+            const bool hasSkin = !deformation.joints.empty() && !primitive->joints.empty();
+            const size_t weightless = hasSkin ? applySkin(*primitive, deformation.joints, at) : 0;
+            if (weightless > 0)
+                context_.report().forgive(at.place(),
+                                          fmt::format("{} vertices have no weight", weightless),
+                                          "they move with the joint that they name first");
             built.materials.push_back(append(at, std::move(*primitive), material, mesh));
         } catch (const SceneError& error) {
             context_.report().replace(error, build::Shortfall::Geometry);

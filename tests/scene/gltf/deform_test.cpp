@@ -69,10 +69,11 @@ TEST(GltfMorphs, ColoursAndCoordinatesMoveToo) {
 
 /// A triangle whose second corner follows two joints, half and half (nodes 1 and 2); the others
 /// follow the first.
-GltfText withSkin() {
+GltfText withSkin(float ofSecond = 0.5f) {
     GltfText g;
     const size_t joints = g.addAccessor<uint8_t>({0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, "VEC4");
-    const size_t weights = g.addAccessor<float>({1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0}, "VEC4");
+    const size_t weights =
+        g.addAccessor<float>({1, 0, 0, 0, ofSecond, ofSecond, 0, 0, 1, 0, 0, 0}, "VEC4");
     const size_t normals = g.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     g.addTriangle("", fmt::format(R"(, "JOINTS_0": {}, "WEIGHTS_0": {}, "NORMAL": {})", joints,
                                   weights, normals));
@@ -92,6 +93,15 @@ GltfText withSkin() {
 TEST(GltfSkins, FollowTheirJoints) {
     // The node's own place has no meaning; the second joint has moved by 6 along y.
     expectNear(corner(load(withSkin())), {1, 3, 0});
+}
+
+/// Exporters leave vertices out of all groups; they belong to the figure all the same.
+TEST(GltfSkins, VerticesWithoutWeightsFollowTheirFirstJoint) {
+    GltfText g = withSkin(0);
+    g.arrays["nodes"][1] = R"({"translation": [0, 0, 7]})";
+    expectNear(corner(load(g)), {1, 0, 7});
+    EXPECT_THAT(load(g).report.forgiven,
+                testing::ElementsAre(HasSubstr("1 vertices have no weight")));
 }
 
 TEST(GltfSkins, NormalsTurnWithJoints) {
