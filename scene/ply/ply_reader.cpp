@@ -25,7 +25,7 @@ constexpr uint64_t kBytesOfTriangle =
 
 /// Within a strip, where the next one begins.
 constexpr uint32_t kRestart = 0xFFFFFFFFu;
-/// Of a face that is to have no picture.
+/// The number of a picture for faces that are to have none.
 constexpr uint32_t kNoPicture = 0xFFFFFFFFu;
 /// A corner that is not there.
 constexpr uint32_t kNoVertex = kRestart - 1;
@@ -64,7 +64,7 @@ void PlyReader::read() {
     builder_.place({name_, 0, "face"}, shape, glm::dmat4(1), materials, instance);
 }
 
-/// Of a file that ends too early, what there is of its faces is shown.
+/// What there is of the faces of a file that ends too early is shown.
 void PlyReader::readAll() {
     try {
         for (const Element& element : header_.elements)
