@@ -133,6 +133,11 @@ std::string textOfVertex(const Scene& scene, size_t number, const RecordedVertex
     if (!v.returns)
         text += "    throughput " +
                 sideBySide(threeOf(v.throughput), other ? threeOf(other->throughput) : "") + "\n";
+    if (v.aimedWeight != 1)
+        text +=
+            v.aimedWeight > 0
+                ? fmt::format("    the bounce could aim here, and weighs {:.4g}\n", v.aimedWeight)
+                : "    the bounce was aimed at another place: it brings nothing\n";
     const bool shines = v.light != glm::dvec3(0.0) || (other && other->light != glm::dvec3(0.0));
     if (shines)
         text += fmt::format("    {}, MIS weight {:.4g}: {}\n",

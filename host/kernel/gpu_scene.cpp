@@ -2,6 +2,7 @@
 
 #include "host/bvh/cpu_traversal.hpp"
 #include "host/kernel/detail_rows.hpp"
+#include "host/kernel/lamp_light.hpp"
 #include "host/kernel/medium_rows.hpp"
 #include "scene/model/mixture.hpp"
 #include "shaders/shared/interface.h"
@@ -133,6 +134,11 @@ void packTextures(GpuScene& g, const Scene& scene, DetailPlan plan, const GpuSce
     g.detailPlan = std::move(plan);
 }
 
+bool hasSky(const Scene& scene) {
+    const auto isAmbient = [](const Light& l) { return l.kind == LightKind::Ambient; };
+    return scene.environment || std::ranges::any_of(scene.lights, isAmbient);
+}
+
 /// All of a scene but its tree and its textures.
 void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
               std::shared_ptr<const EnvironmentTable> environment) {
@@ -145,8 +151,11 @@ void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
     for (const uint32_t closures : materials.media.closures)
         g.closures.add(closures);
     g.lit.reset();
+    // Samples that media take within the glass would find the lamp; beside a sky nothing is gained.
+    const bool leaves = lights.leavesLampsInGlass && scene.media.empty() && !hasSky(scene);
     g.lights = packLights(scene, g.bvh.placeOf, lights,
-                          appendPictures(g.materials, g.details.ofLights), std::move(environment));
+                          appendPictures(g.materials, g.details.ofLights), std::move(environment),
+                          leaves ? lampsInGlass(scene, g.bvh) : std::vector<bool>());
     const LightFoci foci = lightFoci(scene);
     appendFoci(g.materials, scene.media, g.mediumRow, foci);
     g.foci = uint32_t(foci.near.size());
@@ -277,6 +286,7 @@ std::optional<float> gapAlong(const GpuScene& scene, const gpu::QuadLight& light
 
 float gapWidth(const GpuScene& scene) {
     if (scene.lights.count != 1 || scene.lights.sampledKinds != 1u << gpu::LIGHT_QUAD) return 0;
+    if (!scene.lights.leftToBounces.empty()) return 0; // the aimed bounces find them
     // Ambient light that is left to bounces lies before it.
     const size_t row = gpu::LIGHT_ROWS * structureAt<gpu::LightEntry>(scene.lights.table, 0).light;
     const auto header = structureAt<gpu::LightHeader>(scene.lights.lights, row);

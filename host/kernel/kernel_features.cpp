@@ -71,13 +71,15 @@ void checkConventions(const ShadingConventions& c) {
 /// Lobes from which MIS helps: where light samples and bounces find the same light, and either
 /// often finds it better (docs/theory/estimator.md, "MIS").
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
-    if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
+    const bool leaves = !scene.lights.leftToBounces.empty();
+    if (!combinesBouncesAndLightSamples(settings)) return 0;
+    if (scene.lights.areaCount == 0 && !leaves) return 0;
     const bool skyAlone = scene.lights.sampledKinds == 1u << gpu::LIGHT_AMBIENT;
     const bool isPicture = scene.lights.environment != nullptr;
     // Bounces from media find light as those from diffuse surfaces do, and narrow phases better.
     const bool scatters = (scene.media & gpu::MEDIA_SCATTER) != 0;
     const bool everywhere =
-        skyAlone || scatters || isPicture || settings.directLight == DirectLight::MisAll;
+        skyAlone || scatters || isPicture || leaves || settings.directLight == DirectLight::MisAll;
     const uint32_t helped = everywhere ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
     return scene.closures.some & gpu::LOBE_MASK & helped;
 }

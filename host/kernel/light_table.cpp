@@ -25,9 +25,11 @@ double radiusOf(const Scene& scene) {
 class Packer {
   public:
     Packer(const Scene& scene, std::span<const uint32_t> placeOf, const LightSelection& selection,
-           std::span<const uint32_t> pictures, std::shared_ptr<const EnvironmentTable> environment)
-        : scene_(scene), placeOf_(placeOf), selection_(selection), pictures_(pictures),
-          known_(std::move(environment)), sceneRadius_(radiusOf(scene)), means_(scene) {
+           std::span<const uint32_t> pictures, std::shared_ptr<const EnvironmentTable> environment,
+           const std::vector<bool>& isLeft)
+        : isLeft_(isLeft), scene_(scene), placeOf_(placeOf), selection_(selection),
+          pictures_(pictures), known_(std::move(environment)), sceneRadius_(radiusOf(scene)),
+          means_(scene) {
         out_.choice = selection.choice;
     }
 
@@ -147,6 +149,7 @@ class Packer {
 
     void addEmitters() {
         for (const Emitter& e : collectEmitters(scene_)) {
+            if (leaves(e)) continue;
             if (e.kind == EmitterKind::Mesh) {
                 ++meshes_;
                 for (const uint32_t triangle : e.triangles)
@@ -173,6 +176,17 @@ class Packer {
                 nameLight(triangle, entry);
             if (!isQuad) nameLight(uint32_t(scene_.triangles.size()) + e.sphere, entry);
         }
+    }
+
+    /// Whether the emitter is left to bounces.
+    bool leaves(const Emitter& e) {
+        if (isLeft_.empty()) return false;
+        std::vector<uint32_t> primitives = e.triangles;
+        if (e.kind == EmitterKind::Sphere)
+            primitives.push_back(uint32_t(scene_.triangles.size()) + e.sphere);
+        if (!isLeft_[primitives.front()]) return false;
+        out_.leftToBounces.insert(out_.leftToBounces.end(), primitives.begin(), primitives.end());
+        return true;
     }
 
     void addTriangle(uint32_t triangle) {
@@ -268,6 +282,7 @@ class Packer {
         return b.power * (b.bothSides ? 2 : 1) / falloff;
     }
 
+    const std::vector<bool>& isLeft_;
     const Scene& scene_;
     std::span<const uint32_t> placeOf_;
     LightSelection selection_;
@@ -293,13 +308,16 @@ LightSelection lightSelection(const Estimator& settings) {
         settings.directLight == DirectLight::Mis && conventions.bouncesFindAllLight;
     selection.emitters = conventions.samplesEmitters;
     selection.everyLightOfTheFile = conventions.everyLightInTurn;
+    selection.leavesLampsInGlass =
+        combinesWithBounces(settings.directLight) && conventions.bouncesFindAllLight;
     return selection;
 }
 
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       const LightSelection& selection, std::span<const uint32_t> pictures,
-                      std::shared_ptr<const EnvironmentTable> environment) {
-    return Packer(scene, placeOf, selection, pictures, std::move(environment)).pack();
+                      std::shared_ptr<const EnvironmentTable> environment,
+                      const std::vector<bool>& isLeft) {
+    return Packer(scene, placeOf, selection, pictures, std::move(environment), isLeft).pack();
 }
 
 /// It is the first of all lights; its parameters are behind its header.

@@ -28,6 +28,8 @@ struct LightSelection {
     /// Lights of the file that bring no light are lights too, and each of several ambient lights is
     /// one by itself.
     bool everyLightOfTheFile = false;
+    /// Lamps in clear glass are left to bounces (lampsInGlass()), which find all light.
+    bool leavesLampsInGlass = false;
 };
 
 LightSelection lightSelection(const Estimator& settings);
@@ -44,6 +46,7 @@ struct LightTable {
     bool hasAmbient = false;
     bool hasBackdrop = false;               ///< the camera sees the sky
     bool ambientLeftToBounces = false;      ///< by LightSelection::ambientToBounces
+    std::vector<uint32_t> leftToBounces;    ///< primitives of lamps that are not sampled
     uint32_t sampledKinds = 0;              ///< bit n: a light of LIGHT_ kind n is sampled
     uint32_t ambientNumber = gpu::NO_LIGHT; ///< of the sky, where it is sampled
     uint32_t groups = 0;                    ///< LightTree::groups
@@ -63,9 +66,11 @@ struct LightTable {
 /// placeOf: by primitive of the scene, what a LightEntry is to name an emissive triangle by.
 /// pictures: by light of the scene, the first row of its picture's TextureUse; empty: none has one.
 /// environment: of the scene's environment, where it was packed before, with any rotation.
+/// isLeft: by primitive, whether it is a lamp that is left to bounces; empty: none is.
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       const LightSelection& selection, std::span<const uint32_t> pictures = {},
-                      std::shared_ptr<const EnvironmentTable> environment = {});
+                      std::shared_ptr<const EnvironmentTable> environment = {},
+                      const std::vector<bool>& isLeft = {});
 
 /// Gives the environment's picture, if there is one, another rotation (radians).
 void turnEnvironment(LightTable& lights, float rotation);

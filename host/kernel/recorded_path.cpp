@@ -57,6 +57,7 @@ RecordedVertex arrival(const gpu::PathEvent& e, const GpuScene& scene) {
     v.weight = double(e.weight);
     v.light = e.light;
     v.goesOn = double(e.roulette);
+    if (e.kind == gpu::EVENT_ARRIVAL) v.aimedWeight = double(e.pdf);
     return v;
 }
 
@@ -81,6 +82,7 @@ RecordedBounce bounce(const gpu::PathEvent& e) {
     b.direction = e.direction;
     b.lobe = e.name;
     b.pdf = positive(e.pdf);
+    b.weight = double(e.weight);
     b.throughput = e.throughput;
     b.goesOn = double(e.roulette);
     const double largest = std::max({b.throughput.x, b.throughput.y, b.throughput.z});

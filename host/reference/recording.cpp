@@ -36,8 +36,8 @@ void PathSample::noteLight(const LightSample& light, RecordedLight::Fate fate,
 
 void PathSample::noteBounce(const BsdfSample& next, double goesOn, bool survives) {
     if (record_ == nullptr) return;
-    record_->vertices.back().bounce = {next.direction, next.lobe, next.isDelta() ? 0 : next.pdf,
-                                       throughput_,    goesOn,    survives};
+    record_->vertices.back().bounce = {
+        next.direction, next.lobe, next.isDelta() ? 0 : next.pdf, throughput_, goesOn, survives, 1};
 }
 
 void PathSample::noteReturn() {

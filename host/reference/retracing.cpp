@@ -132,7 +132,7 @@ void PathSample::retraceBounce(const RecordedBounce& taken, Ray& ray, Skip& skip
             next = tried;
         }
     }
-    throughput_ *= next.weight / taken.goesOn;
+    throughput_ *= next.weight * (taken.weight / taken.goesOn);
     noteBounce(next, taken.goesOn, taken.survives && largestOf(throughput_) > 0);
     ray = next.transmitted() ? transmittedRay(surface_, taken.direction)
                              : reflectedRay(surface_, taken.direction);
@@ -162,6 +162,7 @@ RecordedPath PathSample::retrace(const RecordedPath& taken) {
         } else {
             ++rays_;
             const bool hits = arriveWhere(vertex, ray, skip, fromCamera);
+            throughput_ *= vertex.aimedWeight;
             glm::dvec3 light(0.0);
             if (largestOf(vertex.light) > 0) // else it is found by light samples
                 light = limited(throughput_ * vertex.weight *
@@ -171,6 +172,7 @@ RecordedPath PathSample::retrace(const RecordedPath& taken) {
                                 scatterings_);
             noteArrival(ray, hits, light);
             own.vertices.back().weight = vertex.weight;
+            own.vertices.back().aimedWeight = vertex.aimedWeight;
             own.vertices.back().goesOn = vertex.goesOn;
             if (!hits) continue;
             faceForward(surface_, world_.conventions);

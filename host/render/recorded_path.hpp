@@ -41,6 +41,7 @@ struct RecordedBounce {
     glm::dvec3 throughput{0.0};    ///< after it, roulette by throughput included
     double goesOn = 1;             ///< the probability of that roulette ...
     bool survives = true;          ///< ... and what came of it; false also where nothing is left
+    double weight = 1;             ///< on top of its BSDF's, where bounces aim
 };
 
 /// Where a ray of a path ends.
@@ -55,7 +56,9 @@ struct RecordedVertex {
     double distance = std::numeric_limits<double>::infinity(); ///< of the ray, metres
     glm::dvec3 direction{0, 0, 1};                             ///< unit: of the ray
     glm::dvec3 throughput{1.0};                                ///< as the ray arrives
-    double weight = 1;     ///< MIS, of the light that the ray has found
+    double weight = 1; ///< MIS, of the light that the ray has found
+    double aimedWeight =
+        1; ///< of the bounce that has arrived, where bounces aim; part of throughput
     glm::dvec3 light{0.0}; ///< emission or sky: what the sample's radiance gains
     double goesOn = 1;     ///< the probability of roulette of a fixed probability
     std::vector<RecordedLight> lights;

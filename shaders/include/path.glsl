@@ -81,10 +81,13 @@ void arrive(const Given given, inout PathState path) {
     }
     if (!inMedium) path.surface = surfaceAt(path.ray);
     if (inMedium) path.surface = pointInMedium(path.ray, path.filling.medium);
+    float aimed = 1.0;
     if (AIMS_BOUNCES) {
-        const float weight = aimedWeight(given.frame, path.aim, path.ray, path.surface.geometric);
-        path.throughput *= weight;
-        if (weight == 0.0) return;
+        aimed = aimedWeight(given.frame, path.aim, path.ray, path.surface.geometric);
+        path.throughput *= aimed;
+        path.aim.weight *= aimed;
+        if (RECORDS && aimed == 0.0) recordArrival(path, vec3(0.0), 1.0, 1.0, aimed);
+        if (aimed == 0.0) return;
     }
     if (PASSES_BORDERS && !inMedium) settleMedium(path);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
@@ -108,7 +111,7 @@ void arrive(const Given given, inout PathState path) {
         recordArrival(path,
                       path.countsEmission ? limited(path, path.throughput * emissionAt(path.surface, path.material) * share)
                                           : vec3(0.0),
-                      share, 1.0 - (ROULETTE == ROULETTE_FIXED ? given.frame.terminationProbability : 0.0));
+                      share, 1.0 - (ROULETTE == ROULETTE_FIXED ? given.frame.terminationProbability : 0.0), aimed);
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
     if (!inMedium) {
         faceForward(path.surface);
@@ -158,6 +161,7 @@ void nextBranch(inout PathState path, Material material) {
     path.surface = path.splitPoint.surface;
     path.material = inMixture(material, path.surface);
     path.throughput = path.splitPoint.throughput;
+    if (AIMS_BOUNCES) path.aim.weight = 1.0; // only surfaces that do not aim come before
     path.bounce = path.splitPoint.bounce;
     if (WALKS) path.uncounted = path.splitPoint.uncounted;
     path.filling = path.splitPoint.filling;
@@ -178,8 +182,9 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     else b = ofMixture(sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight), path.surface);
     if (SEES) path.throughput *= tintOf(path.material, b);
     else path.throughput *= b.weight;
-    if (RECORDS) recordBounce(path, b, roulette, mixtureWeight);
-    const float largest = largestComponent(path.throughput);
+    float largest = largestComponent(path.throughput);
+    if (AIMS_BOUNCES) largest = throughputForRoulette(path.aim, path.material, largest);
+    if (RECORDS) recordBounce(path, b, largest, roulette, mixtureWeight);
     if (!(largest > 0.0)) {
         if (SEES) endAtNothing(path.seen, vec3(0.0), path.firstNormal);
         return;

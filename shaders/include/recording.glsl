@@ -43,14 +43,14 @@ void recordCamera(inout PathState path) {
     record(path, e);
 }
 
-/// goesOn: the probability of roulette there.
-void recordArrival(inout PathState path, vec3 light, float weight, float goesOn) {
+/// goesOn: the probability of roulette there; aimed: aimedWeight() of the bounce that has arrived.
+void recordArrival(inout PathState path, vec3 light, float weight, float goesOn, float aimed) {
     PathEvent e = eventOf(EVENT_ARRIVAL, path);
     if (path.surface.primitive != NO_PRIMITIVE) e.name = path.surface.primitive;
     if (HAS_PLACEMENTS && path.surface.placement != NO_PLACEMENT)
         e.placement = fetchPlacement(path.surface.placement).placement & ~PLACEMENT_MIRRORS;
     e.place = path.surface.position;
-    e.pdf = path.arrivalNumbers.z;
+    e.pdf = aimed;
     e.weight = weight;
     e.light = light;
     e.roulette = goesOn;
@@ -84,16 +84,18 @@ void recordArrivedLight(PathState path, vec3 light) {
         STORE_ROW(pixelRows, rowOfEvent(path.eventCount - 1u) + 4u, floatBitsToUint(vec4(light, 1.0)));
 }
 
-/// The throughput is that after the bounce but before its roulette; mixtureWeight: of the gap proposal.
-void recordBounce(inout PathState path, BsdfSample b, float number, float mixtureWeight) {
+/// The throughput is that after the bounce but before its roulette, which goes by `largest`; mixtureWeight: of both
+/// proposals, where the bounce's density is not that of the mixture.
+void recordBounce(inout PathState path, BsdfSample b, float largest, float number, float mixtureWeight) {
     PathEvent e = eventOf(EVENT_BOUNCE, path);
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START)
-        e.roulette = min(1.0, ROULETTE_BOLDNESS * largestComponent(path.throughput));
+        e.roulette = min(1.0, ROULETTE_BOLDNESS * largest);
     e.name = b.lobe;
     e.place = path.surface.position;
     e.distance = number;
     e.direction = b.direction;
     e.pdf = isDelta(b.lobe) ? 0.0 : b.pdf;
     e.throughput = path.throughput * (mixtureWeight / max(e.roulette, TINY));
+    if (AIMS_BOUNCES) e.weight = mixtureWeight;
     record(path, e);
 }

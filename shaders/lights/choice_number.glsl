@@ -41,3 +41,25 @@ bool choosesFirst(inout ChoiceNumber c, uint ofFirst) {
     c.value = uint(int(u * 16777216.0)) << 7u | digits & 0x7Fu;
     return first;
 }
+
+/// A column of an alias table of `count`; fraction: where in it, in 2^-32, by new digits too where the number has too
+/// few.
+uint pickColumn(inout ChoiceNumber c, uint count, out uint fraction) {
+    uint index, within, carry, unused;
+    umulExtended(c.value << 1u, count, index, fraction);
+    // The number is a multiple of 2^-31: what is between two of them comes from new digits.
+    umulExtended(newDigits(c), 2u * count, within, unused);
+    fraction = uaddCarry(fraction, within, carry);
+    return index + carry;
+}
+
+/// Whether the fraction of a column chooses its alias. rest: what is left of the fraction, in [0, 1), with new digits: a
+/// threshold may be as small as 2^-31, in which steps the choice is made.
+bool choosesAlias(inout ChoiceNumber c, uint fraction, float threshold, out float rest) {
+    const uint part = fraction >> 1u, bound = uint(threshold * 2147483648.0);
+    const bool alias = part >= bound;
+    const uint within = alias ? part - bound : part, width = alias ? 0x80000000u - bound : bound;
+    const float digits = float(int(newDigits(c) >> 8u)) * (1.0 / 16777216.0);
+    rest = clamp((float(int(within)) + digits) / max(float(width), 1.0), 0.0, 1.0 - UNIT_ROUNDOFF);
+    return alias;
+}

@@ -139,19 +139,28 @@ struct PortalRows {
 SHARED_CONST uint PORTAL_ROWS = 3u;
 SHARED_ROWS(PortalRows, PORTAL_ROWS);
 
-/// A cell of a triangle that lamps light, a column of an alias table of all such cells (host/kernel/find_lit_cells.hpp).
+/// A cell of a triangle or of a sphere that lamps light, a column of an alias table of all such cells (host/kernel/find_lit_cells.hpp).
 /// A triangle's squares of barycentric weights are numbered by that of v1, then that of v2, and have two cells each, that
-/// towards v0 first. Behind the cells, in rows of four, is for each place in the tree NO_CELLS or its first cell, above
+/// towards v0 first; a sphere has one for all of it, and one that is empty. Behind the cells, in rows of four, is for each place in the tree NO_CELLS or its first cell, above
 /// CELLS_LEVEL_BITS of the power of two that a triangle's sides are divided into.
 struct LitCell {
     float threshold; ///< below this fraction of the column the cell itself is taken,
     uint alias;      ///< above it this one
     uint place;
-    float density; ///< by area, of bounces that aim
+    float density; ///< of bounces that aim, by area; a sphere: of all of it, which is aimed at by solid angle
 };
 SHARED_ROWS(LitCell, 1);
 SHARED_CONST uint CELLS_LEVEL_BITS = 4u;
 SHARED_CONST uint NO_CELLS = 0xFFFFFFFFu;
+
+/// Which cell of a triangle, divided 2^level times, the barycentric weights of v1 and v2, in [0, 1], lie in.
+SHARED_FUNCTION uint cellOfWeights(float b1, float b2, uint level) {
+    const float side = float(1u << level), most = side * (1.0f - 0.000244140625f);
+    const float x = b1 * side < most ? b1 * side : most, y = b2 * side < most ? b2 * side : most;
+    const uint i = uint(x), j = uint(y);
+    const bool isUpper = (x - float(i)) + (y - float(j)) > 1.0f;
+    return 2u * ((i << level) + j) + (isUpper ? 1u : 0u);
+}
 
 // --- Picking one light --------------------------------------------------------------------------
 // The table of lights holds all LightEntry rows, and behind them either AliasColumn rows, one for each

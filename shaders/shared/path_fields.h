@@ -81,6 +81,7 @@
     F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.aim.place, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.aim.bsdfPdf, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(float, path.aim.weight, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.departurePoint, PORTALS != 0u, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.departureTable, GUIDES_LIGHT, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \

@@ -21,9 +21,10 @@ struct PathEvent {
     vec3 place;     ///< camera: where the ray begins; arrival; light: its point, of finite ones
     float distance; ///< camera: from which on the ray meets something; arrival: of the ray; bounce: roulette's number
     vec3 direction; ///< unit: of the ray
-    float pdf; ///< by solid angle: light: of all samples together, or minus the probability of its choice; bounce
+    float pdf; ///< by solid angle: light: of all samples together, or minus the probability of its choice; bounce. Arrival:
+               ///< what the bounce weighs that has arrived, where only that tells (aimed_bounces.glsl)
     vec3 throughput; ///< arrival, light: before; bounce: after it and its roulette
-    float weight;    ///< of what the path adds: MIS; camera: by the pixel filter
+    float weight;    ///< of what the path adds: MIS; camera: by the pixel filter; bounce: of all that follows
     vec3 light;      ///< what the sample's radiance gains
     float roulette;  ///< arrival and bounce: the probability of going on; light: 1 if it arrives
 };

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """rooms_at_night.py FOLDER [ROOMS]: writes rooms that lamps light, for against_mitsuba.py, in Mitsuba 3's syntax.
 
-reading_room and bathroom are the bundled ones without their skies: a lamp in a shade; bulbs in globes of glass, and a
-lamp at the ceiling. With ROOMS, a folder with the rooms of other renderers (each with a mitsuba3.xml), there are also
+globe is a bare room with a bulb in a globe of glass. reading_room and bathroom are the bundled ones without their
+skies: a lamp in a shade; bulbs in globes of glass, and a lamp at the ceiling. With ROOMS, a folder with the rooms of other renderers (each with a mitsuba3.xml), there are also
 classroom, lit by twelve lamps or by the sun alone, and living-room, lit by three bulbs. Each is FOLDER/NAME/scene.xml.
 """
 import os
@@ -13,6 +13,18 @@ LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 SKY = re.compile(r'<emitter type="(?:constant|directional|envmap|sunsky|sky)".*?</emitter>', re.DOTALL)
 SUN = """<emitter type="directional"><vector name="direction" x="0.865804" y="-0.416766" z="0.276929"/>
   <rgb name="irradiance" value="60, 54, 42"/></emitter>"""
+
+
+GREY = '<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.7"/></bsdf></bsdf>'
+BARE_ROOM = f"""<scene version="3.0.0">
+<integrator type="path"><integer name="max_depth" value="17"/></integrator>
+<sensor type="perspective"><float name="fov" value="70"/><transform name="to_world"><lookat origin="0, 1.2, 1.9" target="0, 1, 0"
+  up="0, 1, 0"/></transform><film type="hdrfilm"><rfilter type="box"/></film></sensor>
+<shape type="cube"><transform name="to_world"><scale x="2" y="1.25" z="2"/><translate y="1.25"/></transform>{GREY}</shape>
+<shape type="cube"><transform name="to_world"><scale x="0.3" y="0.5" z="0.3"/><rotate y="1" angle="30"/><translate y="0.5"/></transform>
+  {GREY}</shape>
+</scene>
+"""
 
 
 def without_sky(path):
@@ -39,7 +51,17 @@ def bulb(x, y, z, radius, radiance):
     return shining(f'<shape type="sphere">{center}', radiance)
 
 
+def globe(x, y, z, radius):
+    """Of glass, hollow to 0.96 of its radius."""
+    shell = ""
+    for size, inside, outside in ((1, 1.5, 1), (0.96, 1, 1.5)):
+        shell += f'<shape type="sphere"><point name="center" x="{x}" y="{y}" z="{z}"/><float name="radius" value="{size * radius}"/>'
+        shell += f'<bsdf type="dielectric"><float name="int_ior" value="{inside}"/><float name="ext_ior" value="{outside}"/></bsdf></shape>'
+    return shell
+
+
 def rooms(others):
+    yield "globe", BARE_ROOM, globe(-1.2, 2, -1, 0.085) + bulb(-1.2, 2, -1, 0.05, "60, 60, 60")
     yield "reading_room_night", without_sky(os.path.join(LIBRARY, "reading_room.xml")), ""
     yield "bathroom_night", without_sky(os.path.join(LIBRARY, "bathroom.xml")), ""
     if not others:
