@@ -1,6 +1,7 @@
 #include "scene/camera/focus.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/model/meet_triangle.hpp"
 #include "scene/model/surface_lookup.hpp"
 #include "scene/model/world_triangles.hpp"
 
@@ -41,21 +42,13 @@ class DepthSearch {
     DepthSearch(const Camera& camera, const Scene& scene) : camera_(camera), scene_(scene) {}
 
     void triangle(DepthRay& ray, const std::array<glm::dvec3, 3>& corners, uint32_t index) const {
-        const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
-        const glm::dvec3 p = glm::cross(ray.direction, b), s = ray.origin - corners[0];
-        const double determinant = glm::dot(a, p);
-        if (determinant == 0) return;
-        const double u = glm::dot(s, p) / determinant;
-        const glm::dvec3 q = glm::cross(s, a);
-        const double v = glm::dot(ray.direction, q) / determinant;
-        if (u < 0 || v < 0 || u + v > 1) return;
-        const double depth = glm::dot(b, q) / determinant;
-        if (!counts(ray, depth)) return;
+        const auto met = meetTriangle(ray.origin, ray.direction, corners);
+        if (!met || !counts(ray, met->t)) return;
         const Material& material = scene_.materials[scene_.triangles[index].material];
         if (material.alphaMode != AlphaMode::Opaque &&
-            opacityAt(scene_, material, attributesAt(scene_, index, u, v)) < kThere)
+            opacityAt(scene_, material, attributesAt(scene_, index, met->b1, met->b2)) < kThere)
             return;
-        ray.nearest = depth;
+        ray.nearest = met->t;
     }
 
     void sphere(DepthRay& ray, const Sphere& sphere) const {

@@ -1,5 +1,6 @@
 #include "scene/model/medium.hpp"
 
+#include "scene/model/meet_triangle.hpp"
 #include "scene/model/overlapping_volumes.hpp"
 #include "scene/model/scene.hpp"
 #include "scene/model/world_triangles.hpp"
@@ -180,16 +181,8 @@ struct BorderSearch {
 
     /// facing: 1, or -1 where the normal points to the other side.
     void triangle(const std::array<glm::dvec3, 3>& corners, double facing, const Material& border) {
-        const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
-        const glm::dvec3 p = glm::cross(direction, b), s = origin - corners[0];
-        const double determinant = glm::dot(a, p);
-        if (determinant == 0) return;
-        const double u = glm::dot(s, p) / determinant;
-        const glm::dvec3 q = glm::cross(s, a);
-        const double v = glm::dot(direction, q) / determinant;
-        if (u < 0 || v < 0 || u + v > 1) return;
-        meet(glm::dot(b, q) / determinant, facing * glm::dot(direction, glm::cross(a, b)) < 0,
-             border);
+        if (const auto met = meetTriangle(origin, direction, corners))
+            meet(met->t, met->fromFront == (facing > 0), border);
     }
 
     void sphere(const Sphere& sphere, const Material& border) {
@@ -220,7 +213,7 @@ void searchBorders(const Scene& scene, BorderSearch& search) {
 /// The volume that counts, of those that may overlap and in which the place is.
 std::optional<uint32_t> volumeAt(const Scene& scene, const glm::dvec3& place) {
     if (std::ranges::none_of(scene.materials, &Material::outsideIsOpen)) return std::nullopt;
-    // A direction that no scene has: edges would count twice.
+    // A direction that no scene has: along a surface there would be nothing to meet.
     BorderSearch search{place, {0.35713, 0.48291, 0.79953}, true};
     searchBorders(scene, search);
     std::optional<uint32_t> last;

@@ -67,6 +67,47 @@ TEST(MediumAt, GoesByTheNormalsOfTriangles) {
     EXPECT_EQ(mediumAt(scene, {3, 1, 2}), 1u);
 }
 
+/// A box of two triangles a side, normals outwards, as files' cubes are.
+void addBox(Scene& scene, const glm::dvec3& center, const glm::dvec3& half, uint32_t material) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            const auto first = uint32_t(scene.positions.size());
+            for (const glm::dvec2 corner :
+                 {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+                glm::dvec3 p;
+                p[axis] = side;
+                p[(axis + 1) % 3] = side * corner.x;
+                p[(axis + 2) % 3] = corner.y;
+                scene.positions.emplace_back(center + half * p);
+            }
+            for (const glm::uvec3 corners : {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)}) {
+                Triangle t;
+                for (int i = 0; i < 3; ++i)
+                    t.corner[i] = first + corners[i];
+                t.material = material;
+                scene.triangles.push_back(t);
+            }
+        }
+}
+
+/// Cameras in front of a cube look at the middle of a side, where its two triangles meet, but for
+/// the rounding of their place.
+TEST(MediumAt, IsNotMistakenWhereTrianglesMeet) {
+    size_t wrong = 0;
+    for (int i = 0; i < 400; ++i) {
+        Scene scene = withMedia(2);
+        const glm::dvec3 center(0.1 * (i % 20), 0.1 * (i / 20), -0.5), half(1.6, 1.6, 0.8);
+        addBox(scene, center, half, border(scene, 0, 1));
+        glm::dvec3 place = glm::dvec3(glm::vec3(center));
+        wrong += mediumAt(scene, place) != 0;
+        for (const double z : {-6.0, -5.0, 5.0, 6.0}) {
+            place.z = z;
+            wrong += mediumAt(scene, place) != 1;
+        }
+    }
+    EXPECT_EQ(wrong, 0u);
+}
+
 /// A mirrored instance has its inside inside.
 TEST(MediumAt, KnowsInstances) {
     for (const float side : {1.0f, -1.0f}) {
