@@ -1,8 +1,5 @@
 // The camera ray of a sample.
 
-/// The block of random numbers for the camera's lens, which no bounce takes.
-const uint LENS_BLOCK = 0x40000000u;
-
 /// at: column and row of the pixel; pixel_: its number in the whole picture; u: for the place in and about it.
 /// weight: that of the sample, by the pixel's filter.
 CameraRay cameraRayOfSample(const Given given, uvec2 at, uint pixel_, uint sample_, vec2 u, out float weight) {

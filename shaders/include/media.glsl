@@ -44,16 +44,10 @@ PassedPlace placePassed(Traversal t) {
 
 // --- Random numbers ------------------------------------------------------------------------------
 
-/// Blocks of random numbers that media take.
-const uint MEDIUM_BLOCKS = 0x20000000u;
-
 /// What tells this stretch of this ray from all others, for any number of draws.
 uvec4 mediumWords(const Frame frame, PathState path) {
     uint sample_ = sampleIndex(frame, path), block = path.bounce | MEDIUM_BLOCKS;
-    if (SPLITS && path.splitPoint.bounce != 0u) {
-        sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
-        block |= BRANCH_BLOCKS;
-    }
+    addressBranch(path.splitPoint.bounce, path.branchesLeft, frame.branches, sample_, block);
     const uint ofLightSample = path.phase == PHASE_PATH ? 0u : 1u + path.directIndex;
     return pcg4d(uvec4(path.pixelId, sample_, block, frame.seed)) ^ uvec4(floatBitsToUint(path.ray.tMin), ofLightSample, 0u, 0u);
 }

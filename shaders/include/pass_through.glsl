@@ -11,10 +11,7 @@ Material materialAt(SurfacePoint s) { return lookUpMaterial(materialPoint(s)).pa
 uvec4 hitWordsOfPath(const Frame frame, PathState path) {
     uint sample_ = sampleIndex(frame, path), block = path.bounce * (1u + directSamples(frame));
     if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) block += path.directIndex;
-    if (SPLITS && path.splitPoint.bounce != 0u) {
-        sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
-        block |= BRANCH_BLOCKS;
-    }
+    addressBranch(path.splitPoint.bounce, path.branchesLeft, frame.branches, sample_, block);
     return hitWords(frame.seed, path.ray, path.pixelId, sample_, block);
 }
 

@@ -112,9 +112,6 @@ void changePixel(const Frame frame, uint itemCount, inout PathState path, inout 
     path.phase = PHASE_NEXT;
 }
 
-/// The block of random numbers (randomWords) that decides on stopping; no sample uses it.
-const uint STOPPING_BLOCK = 0x7FFFFFFFu;
-
 /// The render was stopped while this lane had a pixel in hand: is its sample under way to be ended, or
 /// dropped? Samples that take long are under way more often than others, and are often brighter. A pixel
 /// that has no other sample ends it and one that began in this pass drops it, which leaves its mean

@@ -89,9 +89,6 @@ struct PathState {
 
 #include "include/camera_sample.glsl"
 
-/// Blocks of random numbers that branches take: none of those before paths split.
-const uint BRANCH_BLOCKS = 0x80000000u;
-
 /// Direct light samples at a surface: directions of hemisphere sampling, then samples of lights.
 uint directSamples(const Frame frame) { return frame.hemisphereSamples + frame.lightSamples; }
 
@@ -106,27 +103,26 @@ uint sampleIndex(const Frame frame, PathState path) {
     return frame.firstSample + path.strand + STRANDS * samplesTaken(path);
 }
 
+/// A branch has samples and blocks of its own: where it draws the numbers of a block. splitAt: SplitPoint::bounce.
+void addressBranch(uint splitAt, uint branchesLeft, uint branches, inout uint sample_, inout uint block) {
+    if (SPLITS && splitAt != 0u) {
+        sample_ = sample_ * branches + branches - 1u - branchesLeft;
+        block |= BRANCH_BLOCKS;
+    }
+}
+
 /// Block 0 of a path ray, `bounce` of its path, is for the ray itself and for what happens where it ends;
 /// further light samples there take the blocks after it.
 uvec4 pathWords(const Frame frame, PathState path, uint slot) {
     uint sample_ = sampleIndex(frame, path), block = path.bounce * (1u + directSamples(frame)) + slot;
-    if (SPLITS && path.splitPoint.bounce != 0u) {
-        sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
-        block |= BRANCH_BLOCKS;
-    }
+    addressBranch(path.splitPoint.bounce, path.branchesLeft, frame.branches, sample_, block);
     return randomWords(path.pixelId, sample_, block, frame.seed);
 }
-
-/// Blocks of random numbers that choices between reflection and transmission take.
-const uint CHOICE_BLOCKS = 0x40000000u;
 
 /// The third number of a bounce: of a block of its own, and not spread evenly.
 float sideNumber(const Frame frame, PathState path) {
     uint sample_ = sampleIndex(frame, path), block = path.bounce | CHOICE_BLOCKS;
-    if (SPLITS && path.splitPoint.bounce != 0u) {
-        sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
-        block |= BRANCH_BLOCKS;
-    }
+    addressBranch(path.splitPoint.bounce, path.branchesLeft, frame.branches, sample_, block);
     return unitFloats(pcg4d(uvec4(path.pixelId, sample_, block, frame.seed))).x;
 }
 

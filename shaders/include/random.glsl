@@ -30,6 +30,14 @@ uvec4 randomWords(uint pixel, uint sampleIndex, uint block, uint seed) {
     return pcg4d(uvec4(pixel, sampleIndex, block, seed));
 }
 
+/// Who draws which blocks of a sample. From 0 on they are those of path rays (pathWords()), and media and choices have one
+/// for each bounce beside them.
+const uint MEDIUM_BLOCKS = 0x20000000u; ///< | bounce
+const uint CHOICE_BLOCKS = 0x40000000u; ///< | bounce, from 1 on: choices between reflection and transmission
+const uint LENS_BLOCK = 0x40000000u; ///< of the camera, before any bounce
+const uint STOPPING_BLOCK = 0x7FFFFFFFu; ///< decides on stopping; no sample uses it
+const uint BRANCH_BLOCKS = 0x80000000u; ///< a bit beside all of these, of branches: no path has it before it splits
+
 /// Four numbers in [0, 1).
 vec4 randomBlock(uint pixel, uint sampleIndex, uint block, uint seed) {
     return unitFloats(randomWords(pixel, sampleIndex, block, seed));
