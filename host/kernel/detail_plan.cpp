@@ -271,10 +271,10 @@ DetailPlan::EdgedBundle::EdgedBundle(const Scene& scene, const Bundle& bundle) {
 
 DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used, uint64_t gatheredRows) {
     static_assert(kTextureSlotCount == gpu::TEXTURE_SLOT_COUNT);
-    static_assert(uint32_t(TextureSlot::Emission) == gpu::TEXTURE_EMISSION);
-    static_assert(uint32_t(TextureSlot::Anisotropy) == gpu::TEXTURE_ANISOTROPY);
-    static_assert(uint32_t(TextureSlot::Height) == gpu::TEXTURE_HEIGHT);
-    static_assert(uint32_t(TextureSlot::BlendShare) == gpu::TEXTURE_BLEND_SHARE);
+#define COMPARE_SLOT(name, slot, number, label)                                                    \
+    static_assert(uint32_t(TextureSlot::slot) == gpu::TEXTURE_##name);
+    TEXTURE_SLOT_LIST(COMPARE_SLOT)
+#undef COMPARE_SLOT
     static_assert(uint32_t(Wrap::Repeat) == gpu::WRAP_REPEAT);
     static_assert(uint32_t(Wrap::Mirror) == gpu::WRAP_MIRROR);
     static_assert(uint32_t(Wrap::Clamp) == gpu::WRAP_CLAMP);
@@ -282,9 +282,6 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used, uint64
     static_assert(gpu::TEXEL_KIND_CLAMP == gpu::TEXEL_KIND_REPEAT << gpu::WRAP_CLAMP);
     static_assert(uint32_t(OtherPlace::Behind) == gpu::OTHER_BEHIND);
     static_assert(uint32_t(OtherPlace::InFront) == gpu::OTHER_IN_FRONT);
-    static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);
-    static_assert(uint32_t(TextureSlot::Opacity) == gpu::TEXTURE_OPACITY);
-    static_assert(uint32_t(TextureSlot::FilmThickness) == gpu::TEXTURE_FILM_THICKNESS);
     DetailPlan plan = Planner(scene, gatheredRows, 2).plan(used);
     // Where all lanes look up a bundle anyway, a picture by itself costs less in one than as a
     // loose texture: nothing, or four loads for a lookup's two and all of its code.

@@ -296,27 +296,9 @@ const FeatureValue share = {FeatureValue::Kind::Share, {}};
 const FeatureValue number = {FeatureValue::Kind::Number, {}};
 
 /// By TEXTURE_ slot.
-const std::vector<const char*> kTextureSlots = {"base color",
-                                                "metallic-roughness",
-                                                "normal",
-                                                "emission",
-                                                "transmission",
-                                                "specular",
-                                                "specular color",
-                                                "clearcoat",
-                                                "clearcoat roughness",
-                                                "clearcoat normal",
-                                                "sheen color",
-                                                "sheen roughness",
-                                                "anisotropy",
-                                                "height",
-                                                "share of a mixture",
-                                                "of a projector",
-                                                "opacity",
-                                                "diffuse transmission",
-                                                "diffuse transmission color",
-                                                "iridescence",
-                                                "film thickness"};
+#define NAME_SLOT(name, slot, number, label) label,
+const std::vector<const char*> kTextureSlots = {TEXTURE_SLOT_LIST(NAME_SLOT)};
+#undef NAME_SLOT
 
 /// By bit: lobes are the first ones of closures.
 #define NAME_CLOSURE(name, bit, label) label,

@@ -74,29 +74,40 @@ SHARED_CONST uint TEXTURE_USE_ROWS = 3u;
 SHARED_CONST uint TEXTURE_SLOT_MASK = 0xFFu;
 SHARED_CONST uint TEXTURE_SECOND_UV = 0x100u; ///< the second set of texture coordinates
 
-/// TextureSlot of scene/model/texture.hpp.
-SHARED_CONST uint TEXTURE_BASE_COLOR = 0u;
-SHARED_CONST uint TEXTURE_METALLIC_ROUGHNESS = 1u;
-SHARED_CONST uint TEXTURE_NORMAL = 2u;
-SHARED_CONST uint TEXTURE_EMISSION = 3u;
-SHARED_CONST uint TEXTURE_TRANSMISSION = 4u;
-SHARED_CONST uint TEXTURE_SPECULAR = 5u;
-SHARED_CONST uint TEXTURE_SPECULAR_COLOR = 6u;
-SHARED_CONST uint TEXTURE_CLEARCOAT = 7u;
-SHARED_CONST uint TEXTURE_CLEARCOAT_ROUGHNESS = 8u;
-SHARED_CONST uint TEXTURE_CLEARCOAT_NORMAL = 9u;
-SHARED_CONST uint TEXTURE_SHEEN_COLOR = 10u;
-SHARED_CONST uint TEXTURE_SHEEN_ROUGHNESS = 11u;
-SHARED_CONST uint TEXTURE_ANISOTROPY = 12u;
-SHARED_CONST uint TEXTURE_HEIGHT = 13u;
-SHARED_CONST uint TEXTURE_BLEND_SHARE = 14u;
-SHARED_CONST uint TEXTURE_PROJECTION = 15u;
-SHARED_CONST uint TEXTURE_OPACITY = 16u;
-SHARED_CONST uint TEXTURE_DIFFUSE_TRANSMISSION = 17u;
-SHARED_CONST uint TEXTURE_DIFFUSE_TRANSMISSION_COLOR = 18u;
-SHARED_CONST uint TEXTURE_IRIDESCENCE = 19u;
-SHARED_CONST uint TEXTURE_FILM_THICKNESS = 20u;
-SHARED_CONST uint TEXTURE_SLOT_COUNT = 21u;
+// F(name, slot, number, label): what a texture of a material changes.
+//   name    TEXTURE_name is its number
+//   slot    the TextureSlot of scene/model/texture.hpp, which says what its channels are
+//   number  host/kernel/detail_plan.cpp compares it with that of the TextureSlot
+//   label   what `stromboli kernels` calls it
+#define TEXTURE_SLOT_LIST(F) \
+    F(BASE_COLOR, BaseColor, 0, "base color") \
+    F(METALLIC_ROUGHNESS, MetallicRoughness, 1, "metallic-roughness") \
+    F(NORMAL, Normal, 2, "normal") \
+    F(EMISSION, Emission, 3, "emission") \
+    F(TRANSMISSION, Transmission, 4, "transmission") \
+    F(SPECULAR, Specular, 5, "specular") \
+    F(SPECULAR_COLOR, SpecularColor, 6, "specular color") \
+    F(CLEARCOAT, Clearcoat, 7, "clearcoat") \
+    F(CLEARCOAT_ROUGHNESS, ClearcoatRoughness, 8, "clearcoat roughness") \
+    F(CLEARCOAT_NORMAL, ClearcoatNormal, 9, "clearcoat normal") \
+    F(SHEEN_COLOR, SheenColor, 10, "sheen color") \
+    F(SHEEN_ROUGHNESS, SheenRoughness, 11, "sheen roughness") \
+    F(ANISOTROPY, Anisotropy, 12, "anisotropy") \
+    F(HEIGHT, Height, 13, "height") \
+    F(BLEND_SHARE, BlendShare, 14, "share of a mixture") \
+    F(PROJECTION, Projection, 15, "of a projector") \
+    F(OPACITY, Opacity, 16, "opacity") \
+    F(DIFFUSE_TRANSMISSION, DiffuseTransmission, 17, "diffuse transmission") \
+    F(DIFFUSE_TRANSMISSION_COLOR, DiffuseTransmissionColor, 18, "diffuse transmission color") \
+    F(IRIDESCENCE, Iridescence, 19, "iridescence") \
+    F(FILM_THICKNESS, FilmThickness, 20, "film thickness")
+
+#define NUMBER_SLOT(name, slot, number, label) SHARED_CONST uint TEXTURE_##name = uint(number);
+TEXTURE_SLOT_LIST(NUMBER_SLOT)
+#undef NUMBER_SLOT
+#define COUNT_SLOT(name, slot, number, label) +1u
+SHARED_CONST uint TEXTURE_SLOT_COUNT = 0u TEXTURE_SLOT_LIST(COUNT_SLOT);
+#undef COUNT_SLOT
 
 /// How a texture's coordinates become a texel, and what a texel is.
 ///
