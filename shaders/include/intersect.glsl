@@ -98,7 +98,7 @@ GridAxis movedBy(GridAxis g, float distance) {
     vec4(float(int((w)&0xFFu)), float(int((w)&0xFF00u)), float(int((w)&0xFF0000u)),                \
          float(int((w) >> 24u)))
 
-#include "box_slack.glsl"
+#include "robust/box_slack.glsl"
 
 /// Distances of four planes as bit patterns. As integers, patterns of floats that are not
 /// negative compare as the floats do, and a negative one is below them all, which is all that is
@@ -152,7 +152,7 @@ uint enterChildren(Record r, Ray ray, float tMin, float tMax) {
                      ray.childBits[1]);
 }
 
-#include "triangle.glsl"
+#include "robust/triangle.glsl"
 
 /// Nearest t in (tMin, tMax) at which the ray meets the sphere, or INFINITE_DISTANCE. The
 /// discriminant comes from the distance of the line to the centre, not from b^2 - 4ac, which

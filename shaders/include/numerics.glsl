@@ -31,7 +31,7 @@ void addCompensated(inout vec3 high, inout vec3 low, vec3 x) {
     low = newLow;
 }
 
-#include "origin_offset.glsl"
+#include "robust/origin_offset.glsl"
 
 /// Moves p that far, to the side of w.
 vec3 offsetOrigin(vec3 p, float error, vec3 n, vec3 w) {

@@ -110,11 +110,7 @@ vec3 interpolatedNormal(CornerNormals n, vec3 b, vec3 geometric) {
     return length2 > 0.0 ? sum * inversesqrt(length2) : geometric;
 }
 
-/// How high the smooth surface that the corner normals speak of is over a point of the triangle, on
-/// the side of `facing`, the geometric normal towards wo; 0 where it is below, or where the normals are
-/// on both sides.
-///
-#include "terminator_offset.glsl"
+#include "robust/terminator_offset.glsl"
 
 CornerNormals cornerNormals(Primitive p) {
     return CornerNormals(decodeNormal(p.n0), decodeNormal(p.n1), decodeNormal(p.n2));

@@ -1,3 +1,7 @@
+/// How high the smooth surface that the corner normals speak of is over a point of the triangle, on
+/// the side of `facing`, the geometric normal towards wo; 0 where it is below, or where the normals are
+/// on both sides.
+///
 /// Lit from where it is flat, a coarse mesh shades itself in steps of the shape of its triangles, the
 /// "shadow terminator". After Hanika, "Hacking the Shadow Terminator" (Ray Tracing Gems II, 2021),
 /// reflected light leaves from the smooth surface instead. His height, what a point lacks to the

@@ -123,7 +123,6 @@ INSTANTIATE_TEST_SUITE_P(Table, SwitchedFeature, testing::ValuesIn(featuresToTry
 /// The source of a kernel with all includes.
 std::string sourceOf(const std::string& file) {
     const ShellRun run = shell(STROMBOLI_GLSLANG " -E -I" STROMBOLI_SOURCE_DIR
-                                                 "/shaders/robust -I" STROMBOLI_SOURCE_DIR
                                                  "/shaders " STROMBOLI_SOURCE_DIR "/shaders/" +
                                file);
     EXPECT_EQ(run.exitCode, 0) << run.output;
