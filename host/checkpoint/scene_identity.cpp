@@ -81,13 +81,31 @@ void add(Sum& sum, const TextureUse& t) {
     sum.add(slot), sum.add(texture), sum.add(uvSet), sum.add(uRow), sum.add(vRow), sum.add(scale);
 }
 
+/// Kinds whose facets are of the scene's identity: all that came with facets or after them, also
+/// those that have none.
+bool hasFacets(MaterialKind kind) {
+    switch (kind) {
+    case MaterialKind::Diffuse:
+    case MaterialKind::Mirror:
+    case MaterialKind::Refraction:
+    case MaterialKind::Principled:
+        return false;
+    case MaterialKind::Conductor:
+    case MaterialKind::Dielectric:
+    case MaterialKind::ThinDielectric:
+    case MaterialKind::Plastic:
+    case MaterialKind::Burley:
+        return true;
+    }
+    return true;
+}
+
 void add(Sum& sum, const Material& m) {
     const auto& [distribution, facetAlpha, masking] = m.facets;
     sum.add(m.kind), sum.add(m.albedo), sum.add(m.reflectance), sum.add(m.transmittance);
     sum.add(m.ior), sum.add(m.eta), sum.add(m.k), sum.add(m.emission), sum.add(m.emitsBothSides);
     // A state saved before materials had these stays that of its scene.
-    if (m.kind >= MaterialKind::Conductor)
-        sum.add(distribution), sum.add(facetAlpha), sum.add(m.isNonlinear);
+    if (hasFacets(m.kind)) sum.add(distribution), sum.add(facetAlpha), sum.add(m.isNonlinear);
     if (masking != FacetMasking::Correlated) sum.add(masking);
     if (m.internalViews > 0) sum.add(m.internalViews);
     add(sum, m.principled);

@@ -74,6 +74,32 @@ TEST(SceneIdentity, EveryMemberCounts) {
     EXPECT_EQ(sums.size(), std::size(changes));
 }
 
+uint32_t identityOf(MaterialKind kind, const std::function<void(Material&)>& change) {
+    Scene scene = smallScene();
+    scene.materials[1].kind = kind;
+    change(scene.materials[1]);
+    return sceneIdentity(scene, {});
+}
+
+/// Whatever the order of kinds. What light meets as facets counts, and a kind without them keeps
+/// the identity that it had before there were any.
+TEST(SceneIdentity, FacetsCountForKindsThatHaveThem) {
+    using enum MaterialKind;
+    const std::function<void(Material&)> changes[] = {
+        [](Material& m) { m.facets.distribution = FacetDistribution::Beckmann; },
+        [](Material& m) { m.facets.alpha = glm::vec2(0.3f); },
+        [](Material& m) { m.facets.alpha.y = 0.3f; },
+        [](Material& m) { m.isNonlinear = !m.isNonlinear; }};
+    for (const auto& change : changes) {
+        for (const MaterialKind kind : {Conductor, Dielectric, Plastic})
+            EXPECT_NE(identityOf(kind, change), identityOf(kind, [](Material&) {}))
+                << int(kind) << ' ' << &change - changes;
+        for (const MaterialKind kind : {Diffuse, Mirror, Refraction, Principled})
+            EXPECT_EQ(identityOf(kind, change), identityOf(kind, [](Material&) {}))
+                << int(kind) << ' ' << &change - changes;
+    }
+}
+
 TEST(SceneIdentity, NamesDoNotCount) {
     Scene scene = smallScene();
     const uint32_t before = sceneIdentity(scene, {});
