@@ -34,16 +34,7 @@ std::vector<PixelTarget> tileOrder(std::span<const PixelTarget> targets, uint32_
 
 // --- Dispatches ----------------------------------------------------------------------------------
 
-namespace {
-
-using vulkan::Buffer;
-using vulkan::BufferUse;
-
-/// One iteration of the kernel's loop counts for itself, its traversal steps and pixel filter, the
-/// loop around it that changes pixels and, where there are such, the walk down the light tree, the
-/// loose textures of a material, the materials of a mixture and the steps through a grid of
-/// densities, and the walks down the tree of guided light samples.
-uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const PathKernel& kernel) {
+uint32_t loopPasses(const GpuScene& scene, const KernelFeatures& features) {
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
     // At a hit to draw one, for a light sample and for a bounce to evaluate the others.
@@ -52,19 +43,26 @@ uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const Pa
                               (others ? 2 * (others + 1) * (1 + textures) : 0);
     // At a surface, at its other side for a light sample, and for a bounce.
     constexpr uint32_t kGuideLoops = 3;
-    const bool isGuided = kernel.features()[SPEC_GUIDES_LIGHT] != 0;
+    const bool isGuided = features[SPEC_GUIDES_LIGHT] != 0;
     // To choose one and to tell a sample's density, and that of a bounce that finds the sky.
-    const uint32_t portals = kernel.features()[SPEC_PORTALS];
+    const uint32_t portals = features[SPEC_PORTALS];
     constexpr uint32_t kPortalLoops = 3;
+    // To draw a distance about lamps, and to tell its density.
+    const uint32_t foci = features[SPEC_FOCI];
+    constexpr uint32_t kFociLoops = 2;
     // A light is picked for a light sample, and looked up once more for MIS.
-    const uint32_t perIteration = 1 + passesOfCameraRays(kernel.features()) + 2 +
-                                  (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
-                                  (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures +
-                                  (scene.media & gpu::MEDIA_VARY ? gpu::GRID_STEPS + 1 : 0) +
-                                  (isGuided ? kGuideLoops * (gpu::GUIDE_LEVELS + 1) : 0) +
-                                  (portals ? kPortalLoops * (portals + 1) : 0);
-    return loopLimit(device, perIteration);
+    return 1 + passesOfCameraRays(features) + 2 +
+           (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
+           (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures +
+           (scene.media & gpu::MEDIA_VARY ? gpu::GRID_STEPS + 1 : 0) +
+           (isGuided ? kGuideLoops * (gpu::GUIDE_LEVELS + 1) : 0) +
+           (portals ? kPortalLoops * (portals + 1) : 0) + (foci ? kFociLoops * (foci + 1) : 0);
 }
+
+namespace {
+
+using vulkan::Buffer;
+using vulkan::BufferUse;
 
 Buffer bufferOf(const vulkan::Device& device, const vulkan::BufferPlan& plan) {
     return {device, plan.name, plan.bytes, plan.use};
@@ -84,9 +82,9 @@ std::span<const std::byte> bytesOf(const T& value) {
 Dispatcher::Dispatcher(const DispatchTarget& target, const PathKernel& kernel,
                        const DispatchSettings& settings)
     : device_(target.device), tuning_(settings.tuning),
-      hardIterations_(hardLimit(device_, target.scene.scene(), kernel)), queue_(device_),
-      paths_(bufferOf(device_, pathBuffers(kernel, settings).paths)), film_(target.film),
-      fixedIterations_(settings.fixedIterations),
+      hardIterations_(loopLimit(device_, loopPasses(target.scene.scene(), kernel.features()))),
+      queue_(device_), paths_(bufferOf(device_, pathBuffers(kernel, settings).paths)),
+      film_(target.film), fixedIterations_(settings.fixedIterations),
       frameBuffer_(device_, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
       workItems_(device_, "work list", tuning_.itemsPerDispatch * sizeof(gpu::WorkItem),
                  rowUse(tuning_)),

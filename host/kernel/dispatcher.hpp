@@ -32,6 +32,14 @@ struct StepCounters {
     uint64_t all = 0;  ///< ... out of these
 };
 
+/// Loop passes that one iteration of the kernel's loop may run, for devices that end loops by their
+/// number (loopLimit()). One iteration counts for itself, its traversal steps and pixel filter, the
+/// loop around it that changes pixels and, where there are such, the walk down the light tree, the
+/// loose textures of a material, the materials of a mixture, the steps through a grid of densities,
+/// the walks down the tree of guided light samples, and the portals and near lamps that are chosen
+/// from.
+uint32_t loopPasses(const GpuScene& scene, const KernelFeatures& features);
+
 /// What a dispatcher works on. All must outlive it.
 struct DispatchTarget {
     const vulkan::Device& device;

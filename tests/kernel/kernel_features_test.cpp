@@ -1,4 +1,6 @@
 // What of the scene and the settings a kernel contains.
+#include "host/kernel/dispatcher.hpp"
+#include "shaders/shared/guide_types.h"
 #include "shaders/shared/texture_types.h"
 #include "tests/kernel/scene_features.hpp"
 
@@ -196,7 +198,6 @@ TEST(KernelFeatures, FollowTheTuning) {
     EXPECT_GE(f[SPEC_STACK_SIZE], 1u);
 }
 
-/// The benchmark's kernel: all that scenes may hold, but of the settings only what is asked for.
 /// What a texture makes less metallic may transmit.
 TEST(KernelFeatures, MetalThatATextureMakesClearTransmits) {
     Material m;
@@ -211,6 +212,22 @@ TEST(KernelFeatures, MetalThatATextureMakesClearTransmits) {
     EXPECT_EQ(closureBits(m) & kThrough, gpu::INTERFACE_REFRACTS);
 }
 
+/// Devices that end loops after so many passes would else end those of a lane too soon.
+TEST(KernelFeatures, AllLoopsCountTowardsTheLimit) {
+    const Scene scene = oneTriangle({});
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene));
+    const KernelFeatures plain = featuresOf(scene);
+    const auto passesWith = [&](uint32_t feature, uint32_t value) {
+        KernelFeatures f = plain;
+        f[feature] = value;
+        return loopPasses(gpu, f) - loopPasses(gpu, plain);
+    };
+    EXPECT_EQ(passesWith(SPEC_FOCI, 4), 2u * (4 + 1)) << "a lamp is drawn, and its density told";
+    EXPECT_EQ(passesWith(SPEC_PORTALS, 4), 3u * (4 + 1));
+    EXPECT_EQ(passesWith(SPEC_GUIDES_LIGHT, 1), 3u * (gpu::GUIDE_LEVELS + 1));
+}
+
+/// The benchmark's kernel: all that scenes may hold, but of the settings only what is asked for.
 TEST(KernelFeatures, EverythingOn) {
     DeviceTuning tuning;
     tuning.everythingOn = true;
