@@ -3,12 +3,14 @@
 #include "host/core/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace stromboli::api {
 namespace {
@@ -46,9 +48,11 @@ void requireFinite(const std::string& what, const glm::dvec3& v) {
 LightKind kindOfLight(const std::string& name) {
     for (const KindOfLight& row : kLights)
         if (name == row.name) return row.kind;
-    throw UsageError(fmt::format(
-        "there is no light of the kind '{}': expected directional, point, spot, ambient or area",
-        name));
+    std::vector<const char*> names;
+    for (const KindOfLight& row : kLights)
+        names.push_back(row.name);
+    throw UsageError(fmt::format("there is no light of the kind '{}': expected {}", name,
+                                 fmt::join(names, ", ")));
 }
 
 /// A frame whose -z axis points in the direction; y is up as far as that is possible.
