@@ -28,7 +28,7 @@ void PathSample::noteLight(const LightSample& light, RecordedLight::Fate fate,
     RecordedLight noted;
     noted.primitive = light.primitive;
     noted.direction = light.direction;
-    if (!light.infinite) noted.distance = glm::length(light.target - surface_.position);
+    if (!light.infinite) noted.distance = glm::length(light.target - litPoint(lit_));
     noted.fate = fate;
     noted.light = brings;
     record_->vertices.back().lights.push_back(std::move(noted));

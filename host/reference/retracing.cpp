@@ -2,6 +2,7 @@
 // decisions are taken as they are, and what they meet and bring is worked out anew.
 #include "host/reference/integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// How far a float's path may be off, of a distance.
 constexpr double kSameDistance = 1e-3;
+
+/// The kernel divides by no less (recordBounce() in shaders/include/recording.glsl).
+constexpr double kLeastRoulette = 0x1p-120; // TINY
 
 bool isNear(double t, double distance) {
     return std::isfinite(distance) && std::abs(t - distance) <= kSameDistance * distance;
@@ -36,13 +40,17 @@ bool PathSample::arriveWhere(const RecordedVertex& vertex, const Ray& ray, Skip 
     return arriveAt(ray, hit);
 }
 
-/// What the surface at a distance along the ray sends back; nothing where there is none.
+/// What the surface at a distance along the ray sends back, of all that it meets the one nearest to
+/// there; nothing where there is none.
 glm::dvec3 PathSample::emissionWhere(const Ray& ray, double distance, uint32_t& emitter) const {
-    Hit hit;
+    Hit hit, next;
     do {
-        hit = world_.bvh.closestBehind(ray, hit, {});
-    } while (hit.primitive != kNoPrimitive && !isNear(hit.t, distance));
-    if (hit.primitive == kNoPrimitive) return glm::dvec3(0.0);
+        next = world_.bvh.closestBehind(ray, next, {});
+        if (next.primitive != kNoPrimitive &&
+            std::abs(next.t - distance) < std::abs(hit.t - distance))
+            hit = next;
+    } while (next.primitive != kNoPrimitive && next.t < distance);
+    if (hit.primitive == kNoPrimitive || !isNear(hit.t, distance)) return glm::dvec3(0.0);
     emitter = hit.primitive;
     SurfacePoint s = surfaceAt(world_.scene, ray, hit);
     if (world_.hasDetails) applyTextures(s, world_.scene);
@@ -61,7 +69,7 @@ void PathSample::retraceLight(const RecordedLight& taken) {
     light.direction = taken.direction;
     light.infinite = !std::isfinite(taken.distance);
     Ray ray = leaveTo(taken.direction);
-    if (!light.infinite) light.target = ray.origin + taken.distance * taken.direction;
+    if (!light.infinite) light.target = litPoint(lit_) + taken.distance * taken.direction;
     glm::dvec3 arriving(0.0);
     if (taken.pdf > 0 && !light.infinite)
         arriving = emissionWhere(ray, taken.distance, light.primitive);
@@ -132,7 +140,8 @@ void PathSample::retraceBounce(const RecordedBounce& taken, Ray& ray, Skip& skip
             next = tried;
         }
     }
-    throughput_ *= next.weight * (taken.weight / taken.goesOn);
+    // Roulette that cannot go on has met a path that brings nothing: 0, not 0 / 0.
+    throughput_ *= next.weight * (taken.weight / std::max(taken.goesOn, kLeastRoulette));
     noteBounce(next, taken.goesOn, taken.survives && largestOf(throughput_) > 0);
     ray = next.transmitted() ? transmittedRay(surface_, taken.direction)
                              : reflectedRay(surface_, taken.direction);

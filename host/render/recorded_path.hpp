@@ -23,7 +23,8 @@ struct RecordedLight {
     std::string kind;               ///< of light; empty: whatever lies there
     uint32_t primitive = kNotNamed; ///< the emissive one, where it is known
     glm::dvec3 direction{0, 0, 1};  ///< unit, to the light
-    double distance = std::numeric_limits<double>::infinity(); ///< metres
+    /// Metres, from where the surface is lit: smooth ones are beside their triangles.
+    double distance = std::numeric_limits<double>::infinity();
     /// Density by solid angle, of all samples of the point together, the choice of the light
     /// included; 0: a delta light, or not known.
     double pdf = 0;

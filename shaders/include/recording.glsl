@@ -70,7 +70,8 @@ void recordLightSample(inout PathState path, LightSample light, float weight, bo
     e.name = path.recordedLight;
     e.placement = goes ? 1u : 0u;
     e.place = light.target;
-    e.distance = light.infinite ? INFINITE_DISTANCE : length(light.target - path.surface.position);
+    const vec3 from = isBehind(path.surface, light.direction) ? path.surface.position : litPoint(path.surface);
+    e.distance = light.infinite ? INFINITE_DISTANCE : length(light.target - from);
     e.direction = light.direction;
     e.pdf = path.recordedPdf;
     e.weight = weight;
