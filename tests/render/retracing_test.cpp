@@ -1,5 +1,7 @@
 // The kernel's paths once more by the reference: what their vertices meet and bring is the same.
+#include "host/kernel/find_lit_cells.hpp"
 #include "host/reference/reference_backend.hpp"
+#include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -61,6 +63,45 @@ TEST_F(Retracing, KernelAndReferenceFindTheSameOnOnePath) {
         }
         EXPECT_GE(agree + 1, met) << "an edge may be met on its other side";
     }
+}
+
+/// A closed room, which a lamp in a globe of glass lights, and of which every bounce knows its
+/// weight only when it has arrived.
+TEST_F(Retracing, KnowsWhatAimedBouncesWeigh) {
+    scenes::SceneMaker b;
+    const uint32_t white = b.add(scenes::diffuse(0.6f)), shine = b.add(scenes::emissive(100));
+    const glm::vec3 low(-1), x(2, 0, 0), y(0, 2, 0), z(0, 0, 2), at(-0.6f, 0.2f, -0.6f);
+    b.quad(low, z, x, white), b.quad(low + y, x, z, white), b.quad(low, y, z, white);
+    b.quad(low + x, z, y, white), b.quad(low, x, y, white), b.quad(low + z, y, x, white);
+    b.quad({-0.4f, -1, 0}, {0, 1.5f, 0}, {0.8f, 0, 0}, white); // in the way
+    Material glass;
+    glass.kind = MaterialKind::Dielectric;
+    glass.ior = 1.5f;
+    b.sphere(at, 0.2f, b.add(glass));
+    glass.ior = 1 / 1.5f;
+    b.sphere(at, 0.18f, b.add(glass));
+    b.sphere(at, 0.15f, shine);
+    RenderSettings s;
+    s.area = {16, 12, {}};
+    s.estimator.branches = 2;
+    const Camera camera = lookingAt({0.9, 0.6, 0.9}, {-0.5, -0.2, -0.5}, 0.9);
+    GpuScene gpu = packScene(b.scene, buildWideBvh(b.scene), lightSelection(s.estimator));
+    gpu.lit = findLitCells(gpu);
+    VulkanBackend device(testDevice(), gpu, camera, s);
+    ASSERT_NE(device.features()[SPEC_AIMS_BOUNCES], 0u);
+    const ReferenceBackend host(b.scene, camera, s);
+    size_t lost = 0, lit = 0;
+    for (uint32_t i = 0; i < kPaths; ++i) {
+        const RecordedPath taken = device.record(i, i), again = host.retrace(taken);
+        ASSERT_EQ(again.vertices.size(), taken.vertices.size());
+        for (const RecordedVertex& v : taken.vertices)
+            lost += v.aimedWeight == 0;
+        lit += glm::length(taken.radiance) > 0;
+        EXPECT_LE(glm::length(again.radiance - taken.radiance), kOff * glm::length(taken.radiance))
+            << "pixel and sample " << i;
+    }
+    EXPECT_GT(lost, 0u) << "some aim at what is behind something else";
+    EXPECT_GT(lit, kPaths / 8);
 }
 
 /// Rays of both pass the same surfaces, also where they meet nothing in the end.
