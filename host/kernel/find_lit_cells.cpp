@@ -28,12 +28,12 @@ constexpr double kBrightness = 4, kMostLight = 0.98;
 /// Aiming pays where so much of all light lands first on what is bright, as in shades and housings
 /// of lamps, and so much goes on from there to what is darker; or where so much does both by glass
 /// about a lamp, where light samples find none of it (docs/results.md, "Aimed bounces").
-constexpr double kLeastLanding = 0.5, kLeastGoingOn = 0.05, kLeastByGlass = 0.1;
+constexpr double kLeastLanding = 0.5, kLeastGoingOn = 0.05, kLeastByGlass = 0.02;
 
 // --- Light on its way ----------------------------------------------------------------------------
 
-/// What is known of one ray of light.
-struct Ray {
+/// Where one ray of light has been.
+struct TracedLight {
     Landed first;         ///< what bounces may aim at: where it has landed first
     Landed goesOn;        ///< where it goes on to from there
     bool byGlass = false; ///< `first` is where it has left the glass about its lamp
@@ -56,13 +56,13 @@ TraversalRay scattered(const GpuScene& scene, const Landed& landed, Random& rand
     return ray;
 }
 
-std::vector<Ray> trace(const GpuScene& scene, std::span<const Lamp> lamps, size_t count,
-                       Random& random) {
+std::vector<TracedLight> trace(const GpuScene& scene, std::span<const Lamp> lamps, size_t count,
+                               Random& random) {
     const std::vector<TraversalRay> starts = raysOfLamps(lamps, count, random);
     std::vector<LightPath> paths(starts.size());
     tbb::parallel_for(size_t(0), starts.size(),
                       [&](size_t i) { paths[i] = followLight(scene, starts[i]); });
-    std::vector<Ray> rays(starts.size());
+    std::vector<TracedLight> rays(starts.size());
     std::vector<TraversalRay> onwards(starts.size());
     for (size_t i = 0; i < paths.size(); ++i) {
         rays[i].byGlass = paths[i].glass.place != gpu::NO_PRIMITIVE;
@@ -152,30 +152,29 @@ double usualBrightness(const Divisions& divisions) {
     return area > 0 ? light / area : 0;
 }
 
-enum class Aims { Nowhere, AtGlass, Everywhere };
-
-/// What it pays to aim at.
-Aims worthAiming(const GpuScene& scene, std::span<const Ray> rays) {
+/// What it pays to aim at; empty: nothing.
+std::vector<Landed> worthAiming(const GpuScene& scene, std::span<const TracedLight> rays) {
     std::vector<Landed> first, behindGlass;
-    for (const Ray& r : rays) {
+    for (const TracedLight& r : rays) {
         first.push_back(r.first);
         behindGlass.push_back(r.byGlass ? r.goesOn : r.first);
     }
     const Divisions aimedAt = divide(scene.bvh, first);
     const Divisions lit = divide(scene.bvh, behindGlass); // as the room is without glass
     const double limit = kBrightness * usualBrightness(lit);
-    size_t lands = 0, goesOn = 0, byGlass = 0;
-    for (const Ray& r : rays) {
+    size_t lands = 0, goesOn = 0;
+    std::vector<Landed> glass;
+    for (const TracedLight& r : rays) {
         if (!(brightnessAt(aimedAt, r.first) > limit)) continue;
         const double to = brightnessAt(lit, r.goesOn);
         const bool darkens = to >= 0 && to <= limit;
         ++lands;
         if (darkens) ++goesOn;
-        if (darkens && r.byGlass) ++byGlass;
+        if (darkens && r.byGlass) glass.push_back(r.first);
     }
     const auto share = [&](size_t count) { return double(count) / double(rays.size()); };
-    if (share(lands) >= kLeastLanding && share(goesOn) >= kLeastGoingOn) return Aims::Everywhere;
-    return share(byGlass) >= kLeastByGlass ? Aims::AtGlass : Aims::Nowhere;
+    if (share(lands) >= kLeastLanding && share(goesOn) >= kLeastGoingOn) return first;
+    return share(glass.size()) >= kLeastByGlass ? glass : std::vector<Landed>();
 }
 
 LitCells asTable(const Divisions& divisions, size_t places) {
@@ -215,16 +214,11 @@ LitCells findLitCells(const GpuScene& scene) {
     const std::vector<Lamp> lamps = lampsOf(scene);
     if (lamps.empty()) return {};
     Random random(29);
-    std::vector<Ray> rays;
-    Aims aims = Aims::Nowhere;
-    for (const size_t count : {kFirstRays, kRays}) {
-        rays = trace(scene, lamps, count, random);
-        aims = worthAiming(scene, rays);
-        if (aims == Aims::Nowhere) return {};
-    }
     std::vector<Landed> targets;
-    for (const Ray& r : rays)
-        if (aims == Aims::Everywhere || r.byGlass) targets.push_back(r.first);
+    for (const size_t count : {kFirstRays, kRays}) {
+        targets = worthAiming(scene, trace(scene, lamps, count, random));
+        if (targets.empty()) return {};
+    }
     return asTable(divide(scene.bvh, targets), 2 * scene.bvh.records.size());
 }
 

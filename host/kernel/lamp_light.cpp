@@ -11,9 +11,12 @@ namespace {
 
 /// Surfaces of glass that a ray of light goes through at most.
 constexpr int kMostPanes = 16;
-/// Glass is about a lamp where it is at most so many times as far as the glass before it.
+/// Glass belongs to a lamp if it is at most so many times as far from where the light starts as the
+/// glass before it: the two sides of a globe, or a bulb in a shade, but not a window across the
+/// room.
 constexpr float kShellRatio = 4;
-/// Rays of a lamp that show whether it is in glass.
+/// Rays of a lamp by which it is found to be in glass. What they miss, such as a narrow opening,
+/// lets few light samples through.
 constexpr int kRaysOfLamp = 64;
 
 double meanOf(const glm::vec3& color) {
@@ -37,7 +40,23 @@ Lamp lampOfRows(const LightTable& lights, uint32_t light) {
     return lamp;
 }
 
-/// Where a ray goes on that has met something at the distance t.
+/// The lamp that the triangle or the sphere at a place is.
+Lamp lampOfPrimitive(const WideLayout& bvh, uint32_t place, double radiance, bool bothSides) {
+    Lamp lamp;
+    lamp.bothSides = bothSides;
+    if (const std::optional<PlacedCorners> c = placedCorners(bvh, place)) {
+        lamp.corner = c->v0, lamp.edgeA = c->v1 - c->v0, lamp.edgeB = c->v2 - c->v0;
+        lamp.isTriangle = true;
+        lamp.power = radiance * c->area() * (bothSides ? 2 : 1);
+    } else {
+        const PlacedSphere sphere = placedSphere(bvh, place);
+        lamp.corner = sphere.center, lamp.radius = sphere.radius;
+        lamp.power = radiance * 4 * std::numbers::pi * sphere.radius * sphere.radius;
+    }
+    return lamp;
+}
+
+/// Lets the ray go on behind what it has met.
 void goThrough(const WideLayout& bvh, TraversalRay& ray, const TraversalHit& hit) {
     // A triangle is left out by its place, a sphere by the rounding of its distance.
     const bool isTriangle = placedCorners(bvh, hit.primitive).has_value();
@@ -65,13 +84,14 @@ Landed landed(const GpuScene& scene, const TraversalRay& ray, const TraversalHit
     return at;
 }
 
-/// Straight through which light goes, clear or not.
+/// Glass, clear or frosted: light goes through it, and more or less straight on.
 bool isGlass(const gpu::MaterialHeader& m) {
     return (m.closures & (gpu::LOBE_DELTA_TRANSMISSION | gpu::LOBE_GLOSSY_TRANSMISSION)) != 0 &&
            (m.closures & gpu::LOBE_DIFFUSE_TRANSMISSION) == 0;
 }
 
-/// At which all rays of light samples end, and which scatters nothing that they could find.
+/// Smooth glass without a picture or gaps. A light sample's ray ends at it, and none is taken on it
+/// that would bring anything, as it scatters light into single directions.
 bool isClearGlass(const Material& m) {
     if (m.alphaMode != AlphaMode::Opaque || m.other != kNoMaterial || m.emits()) return false;
     switch (m.kind) {
@@ -134,21 +154,10 @@ class GlassAboutLamps {
                               : scene_.spheres[id - triangles].material;
     }
 
-    /// Its power is its area: all of an emitter is of one material.
+    /// All of an emitter is of one material: what it shines with does not matter.
     Lamp lampOf(uint32_t id, const Emitter& emitter) const {
-        const uint32_t place = bvh_.placeOf[id];
-        Lamp lamp;
-        lamp.bothSides = scene_.materials[emitter.material].emitsBothSides;
-        if (const std::optional<PlacedCorners> c = placedCorners(bvh_, place)) {
-            lamp.corner = c->v0, lamp.edgeA = c->v1 - c->v0, lamp.edgeB = c->v2 - c->v0;
-            lamp.isTriangle = true;
-            lamp.power = c->area();
-        } else {
-            const PlacedSphere sphere = placedSphere(bvh_, place);
-            lamp.corner = sphere.center, lamp.radius = sphere.radius;
-            lamp.power = 4 * std::numbers::pi * sphere.radius * sphere.radius;
-        }
-        return lamp;
+        return lampOfPrimitive(bvh_, bvh_.placeOf[id], 1,
+                               scene_.materials[emitter.material].emitsBothSides);
     }
 
     const Scene& scene_;
@@ -180,18 +189,8 @@ gpu::MaterialHeader materialAtPlace(const GpuScene& scene, uint32_t place) {
 
 Lamp lampAtPlace(const GpuScene& scene, uint32_t place) {
     const gpu::MaterialHeader m = materialAtPlace(scene, place);
-    Lamp lamp;
-    lamp.bothSides = (m.closures & gpu::MATERIAL_EMITS_BOTH_SIDES) != 0;
-    if (const std::optional<PlacedCorners> c = placedCorners(scene.bvh, place)) {
-        lamp.corner = c->v0, lamp.edgeA = c->v1 - c->v0, lamp.edgeB = c->v2 - c->v0;
-        lamp.isTriangle = true;
-        lamp.power = meanOf(m.emission) * c->area() * (lamp.bothSides ? 2 : 1);
-    } else {
-        const PlacedSphere sphere = placedSphere(scene.bvh, place);
-        lamp.corner = sphere.center, lamp.radius = sphere.radius;
-        lamp.power = meanOf(m.emission) * 4 * std::numbers::pi * lamp.radius * lamp.radius;
-    }
-    return lamp;
+    return lampOfPrimitive(scene.bvh, place, meanOf(m.emission),
+                           (m.closures & gpu::MATERIAL_EMITS_BOTH_SIDES) != 0);
 }
 
 std::vector<Lamp> lampsOf(const GpuScene& scene) {

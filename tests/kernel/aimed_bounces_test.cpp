@@ -27,6 +27,7 @@ struct Room {
     float roughness = 0;     ///< of the floor, where it has facets
     float globe = 0;         ///< radius of one of glass about the lamp, 0.9 of it hollow; 0: none
     float lamp = 0.04f;      ///< its radius
+    bool hasPanel = false;   ///< in the middle, with 25 times the light of the lamp
     bool globeLeaks = false; ///< it is a cube of panes, which is open above
 };
 
@@ -76,6 +77,7 @@ Scene roomWithLamp(const Room& room) {
     else
         b.sphere(at, room.lamp, shine);
     if (room.globe > 0) addGlobe(b, at, room);
+    if (room.hasPanel) b.quad({-0.2f, 0.2f, -0.2f}, {0.5f, 0, 0}, {0, 0, 0.5f}, shine);
     if (room.hasShade) box(at - glm::vec3(0.1f, 0.1f, 0.1f), {0.2f, 0.3f, 0.2f}, true, white);
     if (room.hasSky) b.scene.lights.emplace_back().kind = LightKind::Ambient;
     if (room.hasSpot) b.scene.lights.emplace_back().kind = LightKind::Point;
@@ -219,6 +221,9 @@ TEST(LitCells, AreTheGlassAboutALamp) {
     EXPECT_EQ(lit.ofPlace[gpu.bvh.placeOf[spheres + 2]], gpu::NO_CELLS) << "the inner one";
     EXPECT_GT(lit.cells.at(cells >> gpu::CELLS_LEVEL_BITS).density, 0.8f) << "by solid angle";
     EXPECT_EQ(lit.cells.at((cells >> gpu::CELLS_LEVEL_BITS) + 1).density, 0) << "that is none";
+    const LitCells alone =
+        findLitCells(packed(roomWithLamp({.hasShade = false, .globe = 0.1f, .hasPanel = true})));
+    EXPECT_EQ(alone.cells.size(), 2u) << "light samples find the light of the panel";
     const LitCells panes =
         findLitCells(packed(roomWithLamp({.hasShade = false, .globe = 0.1f, .globeLeaks = true})));
     EXPECT_FALSE(panes.cells.empty());

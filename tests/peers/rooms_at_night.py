@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """rooms_at_night.py FOLDER [ROOMS]: writes rooms that lamps light, for against_mitsuba.py, in Mitsuba 3's syntax.
 
-globe is a bare room with a bulb in a globe of glass. reading_room and bathroom are the bundled ones without their
-skies: a lamp in a shade; bulbs in globes of glass, and a lamp at the ceiling. With ROOMS, a folder with the rooms of other renderers (each with a mitsuba3.xml), there are also
+globe is a bare room with a bulb in a globe of glass, to which globe_and_panel adds a panel with eight times its light.
+reading_room and bathroom are the bundled ones without their skies: a lamp in a shade; bulbs in globes, and a lamp at
+the ceiling. With ROOMS, a folder with the rooms of other renderers (each with a mitsuba3.xml), there are also
 classroom, lit by twelve lamps or by the sun alone, and living-room, lit by three bulbs. Each is FOLDER/NAME/scene.xml.
 """
 import os
@@ -40,10 +41,10 @@ def shining(shape, radiance):
     return f'{shape}<bsdf type="diffuse"/>{emitter}</shape>'
 
 
-def panel(x, y, z, half):
+def panel(x, y, z, half, radiance="12, 11, 9"):
     """Faces down."""
     place = f'<scale x="{half}" y="{half}"/><rotate x="1" angle="90"/><translate x="{x}" y="{y}" z="{z}"/>'
-    return shining(f'<shape type="rectangle"><transform name="to_world">{place}</transform>', "12, 11, 9")
+    return shining(f'<shape type="rectangle"><transform name="to_world">{place}</transform>', radiance)
 
 
 def bulb(x, y, z, radius, radiance):
@@ -61,7 +62,9 @@ def globe(x, y, z, radius):
 
 
 def rooms(others):
-    yield "globe", BARE_ROOM, globe(-1.2, 2, -1, 0.085) + bulb(-1.2, 2, -1, 0.05, "60, 60, 60")
+    lamp = globe(-1.2, 2, -1, 0.085) + bulb(-1.2, 2, -1, 0.05, "60, 60, 60")
+    yield "globe", BARE_ROOM, lamp
+    yield "globe_and_panel", BARE_ROOM, lamp + panel(0.5, 2.4, 0.3, 0.25, "60, 60, 60")
     yield "reading_room_night", without_sky(os.path.join(LIBRARY, "reading_room.xml")), ""
     yield "bathroom_night", without_sky(os.path.join(LIBRARY, "bathroom.xml")), ""
     if not others:
