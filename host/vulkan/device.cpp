@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "host/core/pages.hpp"
+#include "host/vulkan/denormals.hpp"
 
 #include <fmt/format.h>
 
@@ -145,6 +146,7 @@ bool DeviceDescription::sharesHostMemory() const {
 }
 
 std::vector<DeviceDescription> listDevices(const Instance& instance) {
+    const DenormalsAreZero inTheDriversThreads; // which newer versions of lavapipe start here
     uint32_t count = 0;
     check(vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr), "list devices");
     std::vector<VkPhysicalDevice> handles(count);
@@ -191,8 +193,11 @@ Device::Device(const Instance&, const DeviceDescription& description,
                                      .pQueueCreateInfos = &queue,
                                      .enabledExtensionCount = uint32_t(extensions.size()),
                                      .ppEnabledExtensionNames = extensions.data()};
-    check(vkCreateDevice(description.handle, &info, nullptr, &device_),
-          "open device " + description.name());
+    {
+        const DenormalsAreZero inTheDriversThreads;
+        check(vkCreateDevice(description.handle, &info, nullptr, &device_),
+              "open device " + description.name());
+    }
     volkLoadDeviceTable(&table_, device_);
     table_.vkGetDeviceQueue(device_, uint32_t(description.queueFamily), 0, &queue_);
     vkGetPhysicalDeviceMemoryProperties(description.handle, &memory_);
