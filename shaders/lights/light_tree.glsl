@@ -13,8 +13,16 @@ bool isGroup(uint group, uint wanted) {
     return (LIGHT_GROUPS & 1u << wanted) != 0u && (LIGHT_GROUPS == 1u << wanted || group == wanted);
 }
 
-/// Whether some light sends more to one side than to another: point lights and spheres do not.
+/// Whether nodes of the tree have cones that are read: of light from infinity, or of finite ones as below.
 bool lightsHaveCones() { return (LIGHT_KINDS & ~(1u << LIGHT_POINT | 1u << LIGHT_SPHERE)) != 0u; }
+
+/// Whether some light that is not infinitely far sends more to one side than to another: point lights and spheres do not.
+bool finiteLightsHaveCones() {
+    const uint infinite = 1u << LIGHT_AMBIENT | 1u << LIGHT_ENVIRONMENT | 1u << LIGHT_DIRECTIONAL;
+    return (LIGHT_KINDS & ~(1u << LIGHT_POINT | 1u << LIGHT_SPHERE | infinite)) != 0u;
+}
+
+bool hasGroup(uint group) { return (LIGHT_GROUPS & 1u << group) != 0u; }
 
 /// The largest cosine of a light's normal that the node's lights can turn towards w (unit, from the surface to
 /// them), as they are seen within the angle `bound` of it; or whether spot lights can shine there.
@@ -65,7 +73,7 @@ float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
     const float across = sqrt(max(distance2 - towards * towards, 0.0));
     const float cosine = within || isNowhere(n) || towards >= gap ? 1.0 : (towards * gap + across * reach) * scale;
     float lightCosine = 1.0;
-    if (lightsHaveCones() && !infinite && !within) {
+    if (finiteLightsHaveCones() && !infinite && !within) {
         const float inverse = inversesqrt(max(distance2, TINY));
         lightCosine = turnedTowards(node, axis, spread, d * inverse, vec2(gap, reach) * inverse);
     }
@@ -132,17 +140,22 @@ bool take(inout float probability, float first, float second, bool follows, bool
     return takesFirst;
 }
 
-/// To the root of a group: the first group against the other two, then the second against the third.
+/// To the root of a group: the first group against the other two, then the second against the third, of those that the scene has.
 LightWalk enterGroup(const Frame frame, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c) {
     // The only one, if it is: of the bits 1, 2 and 4.
     if ((LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) == 0u) return atRoot(frame, LIGHT_GROUPS >> 1u);
     float likely[LIGHT_GROUP_COUNT];
-    for (uint group = 0u; group < LIGHT_GROUP_COUNT; ++group)
-        likely[group] = lightsInGroup(frame, group) > 0u ? likelyLight(frame, atRoot(frame, group), 1u, p, n) : 0.0;
+    for (uint group = 0u; group < LIGHT_GROUP_COUNT; ++group) {
+        likely[group] = 0.0;
+        if (hasGroup(group) && lightsInGroup(frame, group) > 0u)
+            likely[group] = likelyLight(frame, atRoot(frame, group), 1u, p, n);
+    }
     float probability = 1.0;
-    uint group = 0u;
-    if (!take(probability, likely[0], likely[1] + likely[2], follows, to.group == 0u, c))
-        group = take(probability, likely[1], likely[2], follows, to.group == 1u, c) ? 1u : 2u;
+    bool isFirst = false, isSecond = hasGroup(1u);
+    if (hasGroup(0u)) isFirst = take(probability, likely[0], likely[1] + likely[2], follows, to.group == 0u, c);
+    if (hasGroup(1u) && hasGroup(2u) && !isFirst)
+        isSecond = take(probability, likely[1], likely[2], follows, to.group == 1u, c);
+    const uint group = isFirst ? 0u : (isSecond ? 1u : 2u);
     LightWalk walk = atRoot(frame, group);
     walk.probability = probability;
     return walk;
@@ -163,7 +176,7 @@ void descend(const Frame frame, inout LightWalk walk, vec3 p, vec3 n, bool follo
 uint walkLightTree(const Frame frame, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c,
                    out float probability) {
     LightWalk walk = enterGroup(frame, p, n, follows, to, c);
-    for (uint level = 0u; level < MOST_LIGHT_LEVELS && !isLeaf(walk); ++level)
+    for (uint level = 0u; LIGHT_TREES_BRANCH && level < MOST_LIGHT_LEVELS && !isLeaf(walk); ++level)
         descend(frame, walk, p, n, follows, (to.trail >> level & 1u) == 0u, c);
     probability = walk.probability;
     return walk.first + walk.node - walk.lights;

@@ -97,6 +97,8 @@
         "how a light sample picks its light") \
     F(15, uint, LIGHT_GROUPS, 7u, scene.lights.groups, own ? (1u << gpu::LIGHT_GROUP_COUNT) - 1 : 0, \
       "tree of lights", bits({"near", "unattenuated", "infinitely far"}), "groups of lights that the tree has") \
+    F(65, bool, LIGHT_TREES_BRANCH, true, scene.lights.levels > 0, 1, \
+      "groups of several lights", flag, "the walk down the tree of a group, whose root is else its only light") \
     F(16, uint, LIGHT_SAMPLES, 1u, directSampling(scene.lights, settings).perLight, own, \
       "light samples", count("at a surface"), \
         "a loop over the light samples at a surface; where lights are taken in turn, over those of each light") \
@@ -172,7 +174,7 @@
     F(64, bool, AIMS_BOUNCES, false, aimsBounces(scene, settings), own, \
       "bounces that aim at what lamps light", flag, "a second density of bounces (aimed_bounces.glsl)")
 
-#define SPEC_COUNT 65
+#define SPEC_COUNT 66
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -155,6 +155,24 @@ TEST(KernelFeatures, OneLightIsNotChosen) {
         scene.spheres.push_back({{0, 0, 9 + 4 * float(i)}, 1, 1, 0});
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_TREE);
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_GROUPS], 1u << gpu::LIGHT_GROUP_NEAR);
+    EXPECT_TRUE(featuresOf(scene)[SPEC_LIGHT_TREES_BRANCH]);
+}
+
+/// A lamp and the sun are two groups of one light each.
+TEST(KernelFeatures, GroupsOfOneLightAreNotWalkedDown) {
+    Material emitter;
+    emitter.emission = glm::vec3(1);
+    Scene scene = oneTriangle({});
+    scene.materials.push_back(emitter);
+    scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
+    scene.lights.push_back({.kind = LightKind::Directional});
+    RenderSettings s;
+    s.estimator.lightChoice = LightChoice::Tree;
+    const auto features = featuresOf(scene, s);
+    EXPECT_EQ(features[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_TREE);
+    EXPECT_EQ(features[SPEC_LIGHT_GROUPS],
+              1u << gpu::LIGHT_GROUP_NEAR | 1u << gpu::LIGHT_GROUP_INFINITE);
+    EXPECT_FALSE(features[SPEC_LIGHT_TREES_BRANCH]);
 }
 
 /// Each rule of shading that the kernel follows has a bit of its own, so that any mixture is told

@@ -99,6 +99,7 @@ class LightSampler : public DeviceTest, public ::testing::WithParamInterface<Sam
         // As the product has it: rows and cones that no light of the scene has are not read.
         options.set(SPEC_LIGHT_KINDS, packed_.lights.sampledKinds);
         if (packed_.lights.groups) options.set(SPEC_LIGHT_GROUPS, packed_.lights.groups);
+        options.set(SPEC_LIGHT_TREES_BRANCH, packed_.lights.levels > 0);
         shader_.emplace(light_texel, options);
         shader_->setScene(packed_);
     }
@@ -129,40 +130,83 @@ class LightSampler : public DeviceTest, public ::testing::WithParamInterface<Sam
         return byLight;
     }
 
+    void expectPicksAsStated(const LightQuery& from, double level);
+
     GpuScene packed_;
     std::optional<TestShader> shader_;
 };
 
+/// Lights are picked from there as often as stated, at this level of the chi-square test.
+void LightSampler::expectPicksAsStated(const LightQuery& from, double level) {
+    const std::map<uint32_t, double> stated = probabilities(from);
+    ASSERT_EQ(stated.size(), packed_.lights.count);
+    double sum = 0;
+    for (const auto& [light, p] : stated)
+        sum += p;
+    // A walk down the tree may end where no light reaches the surface: bounds get narrower.
+    EXPECT_LT(sum, 1 + 1e-5);
+    std::map<uint32_t, double> counts;
+    double nowhere = 0;
+    for (const LightAnswer& a : picks(from, kPicks, 132)) {
+        ASSERT_NEAR(a.probability, stated.at(a.light), 1e-5 * stated.at(a.light) + 1e-9);
+        if (a.probability > 0)
+            ++counts[a.light];
+        else
+            ++nowhere;
+    }
+    std::vector<double> found, expected;
+    for (const auto& [light, p] : stated) {
+        found.push_back(counts[light]);
+        expected.push_back(p * kPicks);
+    }
+    found.push_back(nowhere);
+    expected.push_back(std::max(1 - sum, 0.0) * kPicks);
+    EXPECT_GT(chiSquareTest(found, expected), level);
+}
+
 TEST_P(LightSampler, PicksAsOftenAsItSays) {
     load(allKinds(12, 131));
     // .01 for the three surfaces of the three choices together.
-    const double level = sidakLevel(0.01, 9);
     for (const LightQuery& from : {surface({0, -1, 0}, {0, 1, 0}), surface({1, 1, 1}, {-1, 0, 0}),
-                                   surface({-3, 0.5f, 0}, {1, 0.2f, 0.1f})}) {
-        const std::map<uint32_t, double> stated = probabilities(from);
-        ASSERT_EQ(stated.size(), packed_.lights.count);
-        double sum = 0;
-        for (const auto& [light, p] : stated)
-            sum += p;
-        // A walk down the tree may end where no light reaches the surface: bounds get narrower.
-        EXPECT_LT(sum, 1 + 1e-5);
-        std::map<uint32_t, double> counts;
-        double nowhere = 0;
-        for (const LightAnswer& a : picks(from, kPicks, 132)) {
-            ASSERT_NEAR(a.probability, stated.at(a.light), 1e-5 * stated.at(a.light) + 1e-9);
-            if (a.probability > 0)
-                ++counts[a.light];
-            else
-                ++nowhere;
+                                   surface({-3, 0.5f, 0}, {1, 0.2f, 0.1f})})
+        expectPicksAsStated(from, sidakLevel(0.01, 9));
+}
+
+/// A light for each bit: near, unattenuated, infinitely far.
+Scene oneLightOfEach(uint32_t groups) {
+    Scene scene = sceneWithEmitter(glm::vec3(0), true);
+    for (uint32_t group = 0; group < gpu::LIGHT_GROUP_COUNT; ++group) {
+        if (!(groups >> group & 1)) continue;
+        Light& light = scene.lights.emplace_back();
+        light.kind = group == gpu::LIGHT_GROUP_INFINITE ? LightKind::Directional : LightKind::Point;
+        light.color = glm::vec3(1 + float(group));
+        light.position = {0.5f * float(group), 1, 0};
+        light.direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
+        light.constantAttenuation = group == gpu::LIGHT_GROUP_NEAR ? 0.0f : 1.0f;
+        light.quadraticAttenuation = group == gpu::LIGHT_GROUP_NEAR ? 1.0f : 0.0f;
+    }
+    return scene;
+}
+
+/// Groups that the scene does not have, and walks down from a group's only light, are not in its
+/// kernel.
+TEST_P(LightSampler, PicksAmongGroupsOfOneLight) {
+    for (const uint32_t groups : {0b011u, 0b101u, 0b110u, 0b111u}) {
+        SCOPED_TRACE(groups);
+        load(oneLightOfEach(groups));
+        if (GetParam().choice == LightChoice::Tree) {
+            EXPECT_EQ(packed_.lights.groups, groups);
+            EXPECT_EQ(packed_.lights.levels, 0u);
         }
-        std::vector<double> found, expected;
-        for (const auto& [light, p] : stated) {
-            found.push_back(counts[light]);
-            expected.push_back(p * kPicks);
+        // .01 for four sets of groups, two surfaces and three choices together.
+        for (const LightQuery& from :
+             {surface({0, -1, 0}, {0, 1, 0}), surface({1, 0.2f, 1}, {-0.5f, 0.3f, 0})}) {
+            double sum = 0;
+            for (const auto& [light, p] : probabilities(from))
+                sum += p;
+            EXPECT_NEAR(sum, 1, 1e-5);
+            expectPicksAsStated(from, sidakLevel(0.01, 24));
         }
-        found.push_back(nowhere);
-        expected.push_back(std::max(1 - sum, 0.0) * kPicks);
-        EXPECT_GT(chiSquareTest(found, expected), level);
     }
 }
 

@@ -39,7 +39,9 @@ ShaderOptions::ShaderOptions() {
         .set(SPEC_HAS_IRIDESCENCE, 1)
         .set(SPEC_LIGHT_KINDS, ~0u)
         .set(SPEC_LIGHT_SAMPLES, 1);
-    set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_TREE).set(SPEC_LIGHT_GROUPS, 7);
+    set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_TREE)
+        .set(SPEC_LIGHT_GROUPS, 7)
+        .set(SPEC_LIGHT_TREES_BRANCH, 1);
 }
 
 ShaderOptions ShaderOptions::texel() {
