@@ -287,7 +287,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     if (isPlane) {
         s.lobe = transmits ? LOBE_DELTA_TRANSMISSION : LOBE_DELTA_REFLECTION;
         const float chosen = interfaceShare(c) * (transmits ? 1.0 - left.light.reflects : left.light.reflects);
-        s.weight = chosen > 0.0 ? (transmits ? left.light.transmitted : left.light.reflected) / chosen : vec3(0.0);
+        s.weight = chosen > 0.0 ? (transmits ? left.light.transmitted : left.light.reflected) * (1.0 / chosen) : vec3(0.0);
     }
     if (!isPlane) {
         // A base alone; else all that may send light there.
@@ -298,7 +298,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
             if (HAS_FACETS && !ofInterface) h = normalBetween(c, alongGrain(c, c.wo), alongGrain(c, s.direction));
             const BsdfValue f = evaluateClosures(m, c, s.direction, h);
             s.pdf = f.pdf;
-            if (hasClosure(m, CLOSURE_INTERFACE | CHOSEN_CLOSURES)) s.weight = f.value / max(f.pdf, TINY);
+            if (hasClosure(m, CLOSURE_INTERFACE | CHOSEN_CLOSURES)) s.weight = f.value * (1.0 / max(f.pdf, TINY));
         }
     }
     // Below the surface that it should be above, or the other way round.

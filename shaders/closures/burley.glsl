@@ -10,7 +10,7 @@ FacetShape burleyFacets(BurleyParameters p, float roughness) {
 /// The hue of the base colour, of luminance 1.
 vec3 burleyTint(BurleyParameters p) {
     const float luminance = dot(p.baseColor, vec3(0.212671, 0.715160, 0.072169)); // Rec. 709
-    return luminance > 0.0 ? p.baseColor / luminance : vec3(1.0);
+    return luminance > 0.0 ? p.baseColor * (1.0 / max(luminance, TINY)) : vec3(1.0);
 }
 
 /// Burley 2015, figure 15: light that passes a thin sheet is spread less.

@@ -33,16 +33,18 @@ float ggxD(vec3 h, vec2 alpha) {
 
 float stretchedLength(vec3 w, vec2 alpha) { return length(vec3(alpha * w.xy, w.z)); }
 
-/// Beckmann's distribution per steradian; its integral times cos is 1. The slope is taken from x and y: 1 - z^2
-/// has few correct digits near the normal.
-float stretchedBeckmannD(vec3 h, vec2 alpha) {
-    const vec2 slope = h.xy / (alpha * h.z);
-    const float cos2 = h.z * h.z;
-    return exp(-dot(slope, slope)) / (PI * alpha.x * alpha.y * cos2 * cos2);
-}
-
+/// The distribution of facets per steradian; its integral times cos is 1. Beckmann's takes the slope from x and y: 1 - z^2
+/// has few correct digits near the normal. One expression for both, so that a kernel that has both computes what a kernel
+/// of one does.
 float facetD(FacetShape f, vec3 h) {
-    return f.isBeckmann ? stretchedBeckmannD(h, f.alpha) : ggxD(h, f.alpha);
+    const vec2 slope = h.xy / f.alpha;
+    const float tan2 = dot(slope, slope), cos2 = h.z * h.z; // tan2: times cos2
+    float q = tan2 + cos2, shape = 1.0;
+    if (HAS_BECKMANN && (!HAS_GGX || f.isBeckmann)) {
+        q = cos2;
+        shape = exp(-tan2 / cos2);
+    }
+    return shape / (PI * f.alpha.x * f.alpha.y * q * q);
 }
 
 /// erf for x >= 0, absolute error below 1.5e-7 (Abramowitz and Stegun 7.1.26).
@@ -79,9 +81,8 @@ float facetArea(FacetShape f, vec3 w) { return facetArea(f, w, HALF_INVERSE_ROOT
 float facetsLit(FacetShape f, vec3 wo, float areaO, vec3 wi) {
     const float cosO = abs(wo.z), cosI = abs(wi.z), areaI = facetArea(f, wi, LAMBDA_TAIL);
     const float maskedO = EXACT_LAMBDA ? areaO : facetArea(f, wo, LAMBDA_TAIL);
-    const float correlated = cosI * areaO / (cosI * maskedO + cosO * (areaI - cosI));
-    const float separable = EXACT_LAMBDA ? cosI / areaI : cosI * areaO / (areaI * maskedO);
-    return f.isSeparable ? separable : correlated;
+    const float correlated = cosI * maskedO + cosO * (areaI - cosI), separable = areaI * maskedO;
+    return cosI * areaO / (f.isSeparable ? separable : correlated);
 }
 
 /// Inverse of erf, |x| < 1: relative error below 4e-7 (Giles 2012, "Approximating the erfinv Function").

@@ -14,9 +14,10 @@ float schlickWeight(float cosine) { return fifthPower(clamp(1.0 - cosine, 0.0, 1
 float fresnelDielectric(float cosine, float eta, out float cosTransmitted) {
     const float sin2 = eta * eta * max(1.0 - cosine * cosine, 0.0);
     cosTransmitted = sqrt(max(1.0 - sin2, 0.0));
-    const float rs = (eta * cosine - cosTransmitted) / (eta * cosine + cosTransmitted);
-    const float rp = (cosine - eta * cosTransmitted) / (cosine + eta * cosTransmitted);
-    return sin2 >= 1.0 ? 1.0 : 0.5 * (rs * rs + rp * rp);
+    // (a - b) / (a + b) of both polarisations, by one division.
+    const vec2 a = vec2(eta * cosine, cosine), b = vec2(cosTransmitted, eta * cosTransmitted), sum = a + b;
+    const vec2 r = (a - b) * sum.yx * (1.0 / (sum.x * sum.y));
+    return sin2 >= 1.0 ? 1.0 : 0.5 * dot(r, r);
 }
 
 /// Unpolarised reflectance of a conductor of index eta + i k (Lagarde 2013, "Memo on Fresnel equations").
@@ -27,10 +28,9 @@ vec3 fresnelConductor(float cosine, vec3 eta, vec3 k) {
     const vec3 a2b2 = sqrt(t0 * t0 + 4.0 * eta2 * k2);
     const vec3 a = sqrt(max(0.5 * (a2b2 + t0), vec3(0.0)));
     const vec3 t1 = a2b2 + cos2, t2 = 2.0 * cosine * a;
-    const vec3 rs = (t1 - t2) / (t1 + t2);
     const vec3 t3 = cos2 * a2b2 + sin2 * sin2, t4 = t2 * sin2;
-    const vec3 rp = rs * (t3 - t4) / (t3 + t4);
-    return 0.5 * (rs + rp);
+    // The mean of rs = (t1 - t2) / (t1 + t2) and rp = rs (t3 - t4) / (t3 + t4).
+    return (t1 - t2) * t3 / ((t1 + t2) * (t3 + t4));
 }
 
 /// Reflectance of a conductor at normal incidence.

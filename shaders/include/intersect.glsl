@@ -11,6 +11,7 @@ struct Ray {
     uvec4 childBits[2]; ///< of slots 0-3 and 4-7: bit (slot ^ octant)
     bool xIsLargest, yIsLargest; ///< component of the direction (triangles); neither: z
     vec3 shear; ///< maps the direction to the z axis (triangles)
+    float inverseLength2; ///< of the direction (spheres)
     vec3 boxOrigin; ///< of the ray in the space of the boxes, which `inverse` to `childBits` are of, too
     vec3 slack; ///< by how much planes of boxes move, in distance along the ray (placements.glsl)
     vec4 toWorld0, toWorld1, toWorld2; ///< rows of the matrix from that space to the triangles'
@@ -61,6 +62,7 @@ Ray makeRay(vec3 origin, vec3 direction) {
     const vec3 d = permute(direction, ray);
     const float inverseZ = permute(ray.inverse, ray).z;
     ray.shear = vec3(d.xy * inverseZ, inverseZ);
+    ray.inverseLength2 = 1.0 / dot(direction, direction);
     ray.toWorld0 = vec4(1.0, 0.0, 0.0, 0.0);
     ray.toWorld1 = vec4(0.0, 1.0, 0.0, 0.0);
     ray.toWorld2 = vec4(0.0, 0.0, 1.0, 0.0);
@@ -160,18 +162,17 @@ uint enterChildren(Record r, Ray ray, float tMin, float tMax) {
 /// steps: after the first, rounding leaves a part along the line of some 2^-22 of the distance.
 /// The root that would cancel comes from the product of the roots.
 float hitSphere(vec3 center, float radius, Ray ray, float tMin, float tMax) {
-    const float inverseLength2 = 1.0 / dot(ray.direction, ray.direction);
     const vec3 f = ray.origin - center;
-    const float nearlyClosest = -dot(f, ray.direction) * inverseLength2;
+    const float nearlyClosest = -dot(f, ray.direction) * ray.inverseLength2;
     const vec3 nearlyPerpendicular = f + nearlyClosest * ray.direction;
-    const float correction = -dot(nearlyPerpendicular, ray.direction) * inverseLength2;
+    const float correction = -dot(nearlyPerpendicular, ray.direction) * ray.inverseLength2;
     const float closest = nearlyClosest + correction;
     const float distance = length(nearlyPerpendicular + correction * ray.direction);
-    const float discriminant = (radius - distance) * (radius + distance) * inverseLength2;
+    const float discriminant = (radius - distance) * (radius + distance) * ray.inverseLength2;
     const float s = sqrt(max(discriminant, 0.0));
     const float q = closest + (closest >= 0.0 ? s : -s);
     const float fromOrigin = length(f);
-    const float product = (fromOrigin - radius) * (fromOrigin + radius) * inverseLength2;
+    const float product = (fromOrigin - radius) * (fromOrigin + radius) * ray.inverseLength2;
     const float other = q != 0.0 ? product / q : INFINITE_DISTANCE;
     const float t0 = min(q, other), t1 = max(q, other);
     const float t = t0 > tMin ? t0 : t1;

@@ -76,6 +76,14 @@ vec2 cosSin(float x) {
     return uintBitsToFloat(floatBitsToUint(swaps ? vec2(odd, even) : vec2(even, odd)) ^ sign);
 }
 
+/// x / d and x % d, for x below 2^31 and quotients below 2^21: by floats, as lavapipe divides integers lane by lane. The
+/// quotient of floats is off by less than 1, so that one correction makes it exact.
+uvec2 quotientAndRest(uint x, uint d) {
+    const int divisor = int(d), guess = int(float(int(x)) / float(divisor)), rest = int(x) - guess * divisor;
+    const int off = rest < 0 ? -1 : (rest >= divisor ? 1 : 0);
+    return uvec2(guess + off, rest - off * divisor);
+}
+
 /// v / |v|, within 4 ulp: one division, where normalize() is compiled into three.
 vec3 unit(vec3 v) { return v * inversesqrt(dot(v, v)); }
 

@@ -52,13 +52,13 @@ struct EnvironmentRow {
     float weight;  ///< likewise: luminance, times the ratios of the texels' tiles, times the sine of the polar angle
 };
 
-EnvironmentRow environmentRow(EnvironmentLight e, uint row, uvec2 columns, float across, vec2 ratios) {
+EnvironmentRow environmentRow(EnvironmentLight e, uint row, uvec2 columns, float across, vec2 ratios, float perRow) {
     const vec3 left = radianceOf(fetchEnvironmentTexel(row * e.width + columns.x));
     const vec3 right = radianceOf(fetchEnvironmentTexel(row * e.width + columns.y));
     const vec3 radiance = mix(left, right, across);
     float weight = luminanceOf(radiance);
     if (GUIDES_LIGHT) weight = mix(ratios.x * luminanceOf(left), ratios.y * luminanceOf(right), across);
-    return EnvironmentRow(radiance, weight * sin(PI * (float(row) + 0.5) / float(e.height)));
+    return EnvironmentRow(radiance, weight * sin((float(int(row)) + 0.5) * perRow));
 }
 
 /// Of the tiles of four texels, left and right in the upper row, then in the lower one.
@@ -79,9 +79,10 @@ EnvironmentValue environmentAt(EnvironmentLight e, vec3 strength, uint table, ve
     const uvec2 columns = uvec2(left, left + 1 < width ? left + 1 : 0);
     const uvec2 rows = uvec2(clamp(int(from.y), 0, lowest), clamp(int(from.y) + 1, 0, lowest));
     const vec4 ratios = tileRatios(e, table, columns, rows);
-    const EnvironmentRow upper = environmentRow(e, rows.x, columns, part.x, ratios.xy);
-    const EnvironmentRow lower = environmentRow(e, rows.y, columns, part.x, ratios.zw);
-    const float sine = sin(PI * place.y / float(e.height));
+    const float perRow = PI / float(int(e.height)); // of the polar angle
+    const EnvironmentRow upper = environmentRow(e, rows.x, columns, part.x, ratios.xy, perRow);
+    const EnvironmentRow lower = environmentRow(e, rows.y, columns, part.x, ratios.zw, perRow);
+    const float sine = sin(place.y * perRow);
     return EnvironmentValue(strength * mix(upper.radiance, lower.radiance, part.y),
                             mix(upper.weight, lower.weight, part.y) * e.density / max(sine, TINY));
 }
@@ -106,15 +107,14 @@ uvec2 pickEnvironmentTexel(EnvironmentLight e, uint table, inout vec2 u) {
     const uvec2 t = (column & 1u) == 0u ? r.xy : r.zw;
     const uint tile = choosesAlias(c, fraction, uintBitsToFloat(t.x), rest) ? t.y : column;
     c.value = uint(int(rest * 16777216.0)) << 7u | newDigits(c) >> 25u;
-    const uvec2 first = uvec2(tile % e.tilesAcross, tile / e.tilesAcross) << e.tileShift;
+    const uvec2 first = quotientAndRest(tile, e.tilesAcross).yx << e.tileShift;
     const uvec2 size = min(uvec2(1u << e.tileShift), uvec2(e.width, e.height) - first);
     const uint inTile = pickColumn(c, size.x * size.y, fraction);
-    uvec2 place = first + uvec2(inTile % size.x, inTile / size.x);
-    const EnvironmentTexel texel = fetchEnvironmentTexel(place.y * e.width + place.x);
+    const uvec2 own = first + quotientAndRest(inTile, size.x).yx;
+    const EnvironmentTexel texel = fetchEnvironmentTexel(own.y * e.width + own.x);
     const bool alias = choosesAlias(c, fraction, texel.threshold, rest);
     u.x = rest;
-    if (alias) place = uvec2(texel.alias % e.width, texel.alias / e.width);
-    return place;
+    return alias ? quotientAndRest(texel.alias, e.width).yx : own;
 }
 
 /// s: the surface from the side where light leaves.

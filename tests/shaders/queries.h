@@ -20,8 +20,9 @@ struct RandomAnswer {
     uint hashed[4];
     float units[4];
     float block[4];
-    float leftOver; ///< of the block's words
-    uint unused[3];
+    float leftOver;      ///< of the block's words
+    uint quotient, rest; ///< quotientAndRest(x, y)
+    uint unused;
 };
 SHARED_ROWS(RandomAnswer, 4);
 

@@ -146,5 +146,26 @@ TEST_F(RandomShader, NeighboursAreUncorrelated) {
             EXPECT_LT(std::abs(correlation(base, i, base, j)), 0.01) << i << j;
 }
 
+/// Numbers below 2^31 whose quotients are below 2^21, multiples of the divisor and their neighbours
+/// among them.
+TEST_F(RandomShader, QuotientsAndRestsAreExact) {
+    std::mt19937 engine(2);
+    std::vector<RandomQuery> queries;
+    for (uint32_t i = 0; i < kMany; ++i) {
+        const uint32_t divisor = std::max(uint32_t(engine()) >> (1 + engine() % 31), 1u);
+        const uint64_t most = std::min<uint64_t>(uint64_t(divisor) << 21, 1u << 31);
+        uint64_t x = (uint64_t(engine()) << 32 | engine()) % most;
+        if (i % 2 == 0) x = x / divisor * divisor;
+        if (i % 8 == 0 && x > 0) --x;
+        queries.push_back({uint32_t(x), divisor, 0, 0});
+    }
+    const std::vector<RandomAnswer> found = answers(queries);
+    for (uint32_t i = 0; i < kMany; ++i) {
+        const RandomQuery& q = queries[i];
+        ASSERT_EQ(found[i].quotient, q.x / q.y) << q.x << " / " << q.y;
+        ASSERT_EQ(found[i].rest, q.x % q.y) << q.x << " / " << q.y;
+    }
+}
+
 } // namespace
 } // namespace stromboli::test
