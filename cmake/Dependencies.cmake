@@ -17,6 +17,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
+find_package(TIFF 4.5 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(OpenEXR REQUIRED)
 # Debian's CMake package of libzip also wants tools of other packages.

@@ -19,8 +19,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 # What `stromboli bench` measures against, and STROMBOLI_VALIDATION=1.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libembree3-3, vulkan-validationlayers")
-# Opened when a file needs it: STL, FBX, 3DS and others.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libassimp5")
+# Opened when a file needs them: STL, FBX, 3DS and others; TIFF pictures.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libassimp5, libtiff6")
 
 # The package made on Debian 12 is for 13 too, where these libraries have other sonames: it brings them along, in a folder
 # that the program alone looks into (INSTALL_RPATH in host/cli). All others are found by dpkg-shlibdeps, and both

@@ -104,9 +104,9 @@ Companion companionNamed(const fs::path& folder, std::string_view written) {
 }
 
 /// The endings of pictures that are read, and those of others that scenes name.
-constexpr std::string_view kRead[] = {".png", ".jpg", ".jpeg", ".webp", ".tga",
-                                      ".bmp", ".gif", ".exr",  ".hdr"};
-constexpr std::string_view kOthers[] = {".tif", ".tiff", ".psd", ".dds", ".ktx2", ".pfm"};
+constexpr std::string_view kRead[] = {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp",
+                                      ".gif", ".tif", ".tiff", ".dds",  ".exr", ".hdr"};
+constexpr std::string_view kOthers[] = {".psd", ".ktx2", ".pfm"};
 
 /// What is left where a name ends in a dot and some letters.
 std::string_view withoutEnding(std::string_view name) {

@@ -30,6 +30,7 @@ bool isReadExtension(std::string_view name) {
         "KHR_mesh_quantization",
         "KHR_node_visibility",
         "KHR_texture_transform",
+        "MSFT_texture_dds",
     };
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }

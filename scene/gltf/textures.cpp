@@ -134,6 +134,8 @@ std::optional<size_t> Textures::sourceOf(const Element& texture) {
     if (const auto webp = texture.extension("EXT_texture_webp"))
         if (const std::optional<size_t> source = webp->index("source", count)) return source;
     if (const std::optional<size_t> source = texture.index("source", count)) return source;
+    if (const auto dds = texture.extension("MSFT_texture_dds"))
+        if (const std::optional<size_t> source = dds->index("source", count)) return source;
     const bool basis = texture.extension("KHR_texture_basisu").has_value();
     context_.report().ignore("textures", basis ? "pictures in KTX 2 with Basis compression "
                                                  "(KHR_texture_basisu) are not read"

@@ -44,6 +44,17 @@ bool isExr(std::string_view bytes) {
     return bytes.starts_with("\x76\x2f\x31\x01");
 }
 
+namespace {
+
+/// Either byte order, with offsets of 32 or of 64 bits.
+bool isTiff(std::string_view bytes) {
+    using namespace std::string_view_literals;
+    const std::string_view mark = bytes.substr(0, 4);
+    return mark == "II*\0"sv || mark == "MM\0*"sv || mark == "II+\0"sv || mark == "MM\0+"sv;
+}
+
+} // namespace
+
 Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t largestSide) {
     if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return decodePng(bytes, name);
     if (bytes.starts_with("\xFF\xD8\xFF")) return decodeJpeg(bytes, name);
@@ -53,12 +64,14 @@ Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t 
     if (bytes.starts_with("BM")) return decodeBmp(bytes, name);
     if (bytes.starts_with("#?")) return decodeHdr(bytes, name, largestSide);
     if (isExr(bytes)) return decodeExr(bytes, name);
+    if (isTiff(bytes)) return decodeTiff(bytes, name);
+    if (bytes.starts_with("DDS ")) return decodeDds(bytes, name);
     if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return decodePfm(bytes, name);
     if (looksLikeTga(bytes)) return decodeTga(bytes, name);
     throw SceneError(name, 0, "",
                      bytes.empty() ? "is empty, expected a picture"
                                    : "is no picture that is read: expected PNG, JPEG, WebP, "
-                                     "GIF, BMP, Radiance HDR, OpenEXR, PFM or TGA");
+                                     "GIF, BMP, TIFF, DDS, Radiance HDR, OpenEXR, PFM or TGA");
 }
 
 } // namespace stromboli::images

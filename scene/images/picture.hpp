@@ -36,11 +36,11 @@ struct Picture {
     }
 };
 
-/// Decodes the bytes of a PNG, JPEG, WebP, GIF, BMP, Radiance HDR, OpenEXR, PFM or TGA file, told
-/// by their beginning. `name` is what messages call it. Throws SceneError if the bytes are none of
-/// these, damaged beyond use, if a side exceeds kLargestSide, if they are too few for the size that
-/// they claim, or if the pixels would not fit in the machine's memory. Radiance pictures of more
-/// than `largestSide` are shrunk while they are read.
+/// Decodes the bytes of a PNG, JPEG, WebP, GIF, BMP, TIFF, DDS, Radiance HDR, OpenEXR, PFM or TGA
+/// file, told by their beginning. `name` is what messages call it. Throws SceneError if the bytes
+/// are none of these, damaged beyond use, if a side exceeds kLargestSide, if they are too few for
+/// the size that they claim, or if the pixels would not fit in the machine's memory. Radiance
+/// pictures of more than `largestSide` are shrunk while they are read.
 Picture decodePicture(std::string_view bytes, const std::string& name,
                       uint32_t largestSide = kLargestSide);
 
@@ -53,6 +53,8 @@ Picture decodeHdr(std::string_view bytes, const std::string& name, uint32_t larg
 Picture decodeExr(std::string_view bytes, const std::string& name);
 Picture decodeBmp(std::string_view bytes, const std::string& name);
 Picture decodeTga(std::string_view bytes, const std::string& name);
+Picture decodeTiff(std::string_view bytes, const std::string& name);
+Picture decodeDds(std::string_view bytes, const std::string& name);
 Picture decodePfm(std::string_view bytes, const std::string& name);
 
 /// True if a file that begins like this is OpenEXR.

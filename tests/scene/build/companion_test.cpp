@@ -62,12 +62,14 @@ TEST(Companions, MayHaveTheCodesOfUrisOrBytesOfLatin1) {
 }
 
 TEST(Companions, OfPicturesMayHaveAnotherEnding) {
-    const CompanionFolder folder({"maps/wood.png", "wall.jpg", "wall.obj", ".png"});
+    const CompanionFolder folder({"maps/wood.png", "wall.jpg", "wall.obj", ".png", "roof.dds", "tile.tif"});
     EXPECT_EQ(pictureCompanion("", "maps/wood.psd").path, "maps/wood.png");
     EXPECT_EQ(pictureCompanion("", "C:\\maps\\wall.tif").path, "wall.jpg");
     EXPECT_EQ(pictureCompanion("", "wall").path, "wall.jpg");
     EXPECT_FALSE(pictureCompanion("", "wall.tif").problem.empty());
     EXPECT_EQ(companion("", "wall.tif").path, "wall.jpg");
+    EXPECT_EQ(companion("", "roof.tga").path, "roof.dds");
+    EXPECT_EQ(companion("", "tile.png").path, "tile.tif");
     EXPECT_FALSE(companion("", "wall.stl").path);
     EXPECT_FALSE(companion("", "wall").path);
     EXPECT_FALSE(pictureCompanion("", "floor.tif").path);

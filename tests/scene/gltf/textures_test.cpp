@@ -135,6 +135,11 @@ TEST(GltfTextures, OfExtensions) {
                                   toBase64(webp(1, 1, {9, 8, 7, 6}))));
     g.arrays["textures"][0] = R"({"source": 0, "extensions": {"EXT_texture_webp": {"source": 2}}})";
     EXPECT_THAT(load(g).images.at(0).words, ElementsAre(0x06070809u));
+    // A picture that is always read comes first.
+    g.arrays["textures"][0] = R"({"source": 0, "extensions": {"MSFT_texture_dds": {"source": 2}}})";
+    EXPECT_NE(load(g).images.at(0).words.at(0), 0x06070809u);
+    g.arrays["textures"][0] = R"({"extensions": {"MSFT_texture_dds": {"source": 2}}})";
+    EXPECT_THAT(load(g).images.at(0).words, ElementsAre(0x06070809u));
     g.arrays["textures"][0] = R"({"extensions": {"KHR_texture_basisu": {"source": 2}}})";
     const Scene scene = load(g);
     EXPECT_TRUE(scene.images.empty());
