@@ -103,8 +103,12 @@ class HdrReader {
                     0);
         blocks.begin();
         std::vector<Rgbe> row(order.pixels);
+        std::string problem;
         for (uint32_t i = 0; i < order.rows; ++i) {
-            readRow(row);
+            // Rows that are missing have no light, which is what they hold already.
+            problem = readRow(row);
+            if (!problem.empty() && i == 0) fail(problem);
+            if (!problem.empty()) break;
             const uint32_t slow = order.rowsReverse ? order.rows - 1 - i : i;
             for (uint32_t j = 0; j < order.pixels; ++j) {
                 const uint32_t fast = order.pixelsReverse ? order.pixels - 1 - j : j;
@@ -113,6 +117,7 @@ class HdrReader {
             }
         }
         Picture read = blocks.finish();
+        if (!problem.empty()) read.addFault(build::Shortfall::PicturePart, problem);
         if (blocks.size() > 1)
             read.faults.push_back({build::Shortfall::EnvironmentSize,
                                    fmt::format("has {} x {} texels, more than {} a side", width,
@@ -125,8 +130,13 @@ class HdrReader {
         failToDecode(name_, "Radiance HDR", problem);
     }
 
+    /// What is wrong with the pixels from somewhere on.
+    struct Damage {
+        std::string_view problem;
+    };
+
     uint8_t next() {
-        if (rest_.empty()) fail("the file is truncated");
+        if (rest_.empty()) throw Damage{"the file is truncated"};
         const uint8_t byte = uint8_t(rest_.front());
         rest_.remove_prefix(1);
         return byte;
@@ -213,13 +223,23 @@ class HdrReader {
                 reverses(axes[1])};
     }
 
-    void readRow(std::vector<Rgbe>& row) {
+    /// Returns what is wrong with the row, or nothing.
+    std::string readRow(std::vector<Rgbe>& row) {
+        try {
+            readPackedOrPlain(row);
+            return "";
+        } catch (const Damage& damage) {
+            return std::string(damage.problem);
+        }
+    }
+
+    void readPackedOrPlain(std::vector<Rgbe>& row) {
         const size_t width = row.size();
         const Rgbe first = pixel();
         const bool packed = width >= kShortestPackedRow && width <= kLongestPackedRow &&
                             first[0] == 2 && first[1] == 2 && first[2] < 128;
         if (!packed) return readPixels(row, first);
-        if ((size_t(first[2]) << 8 | first[3]) != width) fail("a row has another length");
+        if ((size_t(first[2]) << 8 | first[3]) != width) throw Damage{"a row has another length"};
         for (int channel = 0; channel < 4; ++channel)
             readChannel(row, channel);
     }
@@ -237,7 +257,7 @@ class HdrReader {
             const uint8_t code = next();
             const bool repeats = code > 128;
             const size_t count = repeats ? code - 128 : code;
-            if (count == 0 || count > row.size() - x) fail("a run is longer than its row");
+            if (count == 0 || count > row.size() - x) throw Damage{"a run is longer than its row"};
             const uint8_t repeated = repeats ? next() : 0;
             for (size_t i = 0; i < count; ++i)
                 row[x++][channel] = repeats ? repeated : next();
@@ -250,9 +270,9 @@ class HdrReader {
         uint32_t shift = 0;
         for (size_t x = 0;;) {
             if (value[0] == 1 && value[1] == 1 && value[2] == 1) {
-                if (x == 0 || shift > 16) fail("a pixel is repeated that is not there");
+                if (x == 0 || shift > 16) throw Damage{"a pixel is repeated that is not there"};
                 const size_t count = size_t(value[3]) << shift;
-                if (count > row.size() - x) fail("a run is longer than its row");
+                if (count > row.size() - x) throw Damage{"a run is longer than its row"};
                 for (size_t i = 0; i < count; ++i, ++x)
                     row[x] = row[x - 1];
                 shift += 8;

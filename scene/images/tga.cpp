@@ -82,20 +82,24 @@ class Decoder {
         // A packet of a run has one byte and a pixel, and stands for 128 pixels at most.
         const uint64_t least =
             h_.packed ? (count + 127) / 128 * (1 + pixelBytes) : count * pixelBytes;
-        requireSize(name_, h_.width, h_.height, 4, bytes_.size(), at_ + least);
-        std::vector<uint8_t> values(size_t(count) * 4);
+        // A part of the pixels is shown, but not next to nothing of a picture of any size.
+        constexpr uint64_t leastPart = 256;
+        requireSize(name_, h_.width, h_.height, 4, bytes_.size(), at_ + least / leastPart + 1);
+        std::vector<uint8_t> values(size_t(count) * 4, 127); // of what is missing: mid grey
+        for (size_t i = 3; i < values.size(); i += 4)
+            values[i] = 255;
         uint32_t run = 0;
         bool repeats = false;
         Texel texel{};
         for (size_t i = 0; i < count; ++i) {
             if (h_.packed && run == 0) {
-                require(1);
+                if (!isThere(1)) return partOf(std::move(values));
                 const uint8_t packet = byteAt(bytes_, at_++);
                 run = (packet & 127u) + 1u;
                 repeats = (packet & 128) != 0;
-                if (repeats) texel = next();
+                if (repeats && !next(texel)) return partOf(std::move(values));
             }
-            if (!repeats) texel = next();
+            if (!repeats && !next(texel)) return partOf(std::move(values));
             if (h_.packed) --run;
             const size_t x = i % h_.width, y = i / h_.width;
             const size_t column = h_.rightToLeft ? h_.width - 1 - x : x;
@@ -106,14 +110,24 @@ class Decoder {
     }
 
   private:
-    void require(size_t count) const {
-        if (bytes_.size() - at_ < count) failToDecode(name_, "TGA", "the file is truncated");
+    bool isThere(size_t count) const { return bytes_.size() - at_ >= count; }
+
+    Picture partOf(std::vector<uint8_t> values) const {
+        Picture picture{h_.width, h_.height, std::move(values)};
+        picture.addFault(build::Shortfall::PicturePart, "the file is truncated");
+        return picture;
     }
 
-    Texel next() {
-        const size_t size = (h_.bits + 7) / 8, at = at_;
-        require(size);
+    /// False where the file has ended.
+    bool next(Texel& texel) {
+        const size_t size = (h_.bits + 7) / 8;
+        if (!isThere(size)) return false;
+        texel = colorOf(at_);
         at_ += size;
+        return true;
+    }
+
+    Texel colorOf(size_t at) const {
         if (h_.kind == kColor) return colorAt(bytes_, at, h_.bits, h_.hasAlpha);
         const uint8_t value = byteAt(bytes_, at);
         if (h_.kind == kGrey) return {value, value, value, 255};

@@ -96,6 +96,22 @@ TEST(Formats, Webp) {
                 ElementsAre(1, 2, 3, 255, 250, 251, 252, 128));
 }
 
+/// Rows that are there are shown, and what is missing is mid grey.
+TEST(Formats, WebpThatEndsTooEarlyIsShownAsFarAsItGoes) {
+    Bytes noise(64 * 64 * 4, 255);
+    uint32_t random = 1;
+    for (size_t i = 0; i < noise.size(); ++i)
+        if (i % 4 < 3) noise[i] = uint8_t((random = random * 1664525u + 1013904223u) >> 24);
+    const std::string whole = test::webp(64, 64, noise);
+    const Picture picture = decodePicture(whole.substr(0, whole.size() / 2), "picture");
+    const auto& values = std::get<Bytes>(picture.values);
+    EXPECT_EQ(Bytes(values.begin(), values.begin() + 64 * 4),
+              Bytes(noise.begin(), noise.begin() + 64 * 4));
+    EXPECT_THAT(Bytes(values.end() - 4, values.end()), ElementsAre(127, 127, 127, 255));
+    ASSERT_EQ(picture.faults.size(), 1u);
+    EXPECT_EQ(picture.faults[0].kind, build::Shortfall::PicturePart);
+}
+
 /// Three columns and nine rows, as Pillow writes them: colour (x + y) % 3, of which the last is
 /// none.
 std::string gif(char flags = 0) {
@@ -270,6 +286,19 @@ TEST(FloatImages, OfRadianceHaveAnyOrder) {
         for (size_t i = 0; i < 4; ++i)
             EXPECT_NEAR(image.texels.at(i).x, expected[i], 0.01f) << size << " " << i;
     }
+}
+
+/// Rows that are missing have no light.
+TEST(FloatImages, OfRadianceThatEndTooEarlyAreShownAsFarAsTheyGo) {
+    const std::string whole = hdrOf("", "-Y 2 +X 2");
+    const FloatImage image = readFloatImage(File(whole.substr(0, whole.size() - 1)).path);
+    EXPECT_EQ(image.texels.at(0).x, 1);
+    EXPECT_EQ(image.texels.at(2), glm::vec3(0));
+    EXPECT_EQ(image.texels.at(3), glm::vec3(0));
+    ASSERT_EQ(image.faults.size(), 1u);
+    EXPECT_EQ(image.faults[0].kind, build::Shortfall::PicturePart);
+    EXPECT_EQ(image.faults[0].problem, "the file is truncated");
+    EXPECT_THROW(readFloatImage(File(whole.substr(0, whole.size() - 9)).path), SceneError);
 }
 
 TEST(FloatImages, OfRadianceAreDividedByExposureAndColourCorrection) {

@@ -46,9 +46,24 @@ TEST(Tga, GreyTablesAndRuns) {
 
 TEST(Tga, DamagedOnesAreErrors) {
     for (const std::string& bad :
-         {header(2, 24, 0), header(2, 24, 0) + "12345678901", header(11, 8, 0) + "\x82\7",
-          header(1, 8, 0, 2) + std::string("\0\0\5\0\0\6\1\0\2\1", 10), header(9, 8, 0, 9)})
+         {header(2, 24, 0), header(1, 8, 0, 2) + std::string("\0\0\5\0\0\6\1\0\2\1", 10),
+          header(9, 8, 0, 9)})
         EXPECT_THROW(decodePicture(bad, "a.tga"), SceneError);
+}
+
+/// Pixels that are there are shown, and what is missing is mid grey.
+TEST(Tga, ThatEndsTooEarlyIsShownAsFarAsItGoes) {
+    const std::pair<std::string, std::vector<int>> files[] = {
+        {header(2, 24, 32) + std::string("\0\0\1\0\0\2\0\0\3\0\0", 11), {1, 2, 3, 127}},
+        {header(11, 8, 32) + "\x82\7", {7, 7, 7, 127}},
+        {header(11, 8, 32) + "\x82", {127, 127, 127, 127}}};
+    for (const auto& [file, red] : files) {
+        EXPECT_EQ(redOf(file), red);
+        const Picture picture = decodePicture(file, "a.tga");
+        EXPECT_EQ(std::get<std::vector<uint8_t>>(picture.values).at(15), 255);
+        ASSERT_EQ(picture.faults.size(), 1u);
+        EXPECT_EQ(picture.faults[0].problem, "the file is truncated");
+    }
 }
 
 } // namespace
