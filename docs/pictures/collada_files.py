@@ -22,7 +22,9 @@ def render(model, picture):
     run = subprocess.run(
         [ROOT / "stromboli", "render", model, "-o", picture, "-r", str(WIDTH), str(HEIGHT), "-s", "64"],
         stderr=subprocess.PIPE, text=True)
-    if run.returncode != 0:
+    if "nothing to draw" in run.stderr:
+        Image.new("RGB", (WIDTH, HEIGHT)).save(picture)
+    elif run.returncode != 0:
         sys.exit(f"{model}: {run.stderr}")
     return run.stderr.splitlines()
 
@@ -32,8 +34,8 @@ def tile(picture, name, lines):
     image = Image.new("RGB", (WIDTH, HEIGHT + LABEL), (40, 40, 40))
     image.paste(Image.open(picture).convert("RGB"))
     draw = ImageDraw.Draw(image)
-    if any("has no geometry" in line for line in lines):
-        draw.text((36, HEIGHT // 2 - 6), "has no geometry", fill=(160, 160, 160))
+    if any("nothing to draw" in line for line in lines):
+        draw.text((36, HEIGHT // 2 - 6), "nothing to draw", fill=(160, 160, 160))
     for i in range(0, min(len(name), 2 * LETTERS), LETTERS):
         draw.text((3, HEIGHT + 1 + 11 * (i // LETTERS)), name[i : i + LETTERS], fill=(255, 255, 255))
     return image
@@ -54,7 +56,7 @@ def main():
             sheet.paste(tile(picture, model.name, lines), (i % COLUMNS * step_x, i // COLUMNS * step_y))
             print(model.name)
             for line in lines:
-                if line.startswith("warning: ") or "light" in line or "camera" in line:
+                if line.startswith(("warning: ", "error: ")) or "light" in line or "camera" in line:
                     print("   ", line.replace(f"{model.parent}/", ""))
     # 64 colours are enough for pictures this small.
     sheet.quantize(64).save(ROOT / "docs/pictures/collada_files.png", optimize=True)

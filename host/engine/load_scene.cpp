@@ -7,6 +7,7 @@
 #include "host/kernel/find_portals.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "scene/find_scene.hpp"
+#include "scene/model/default_light.hpp"
 #include "scene/read_scene.hpp"
 
 #include <fmt/format.h>
@@ -68,6 +69,18 @@ float turnOwnEnvironment(Scene& scene, const SceneRequest& request) {
     return 0;
 }
 
+/// A file of which nothing can be seen is an error, whatever its format. A moment of an animation
+/// may show nothing.
+void requireSomethingToDraw(const Scene& scene, const SceneRequest& request) {
+    if (hasSomethingToDraw(scene) || request.reading.selection.seconds) return;
+    const size_t leftOut = scene.report.warnings.size() + scene.report.forgiven.size();
+    throw SceneError(
+        request.source, 0, "",
+        fmt::format("has nothing to draw: expected surfaces, or else a sky around them "
+                    "(--env FILE){}",
+                    leftOut > 0 ? "; the lines above say what was left out" : ""));
+}
+
 void report(const LoadReport& lines, const Listener& listener) {
     for (const std::string& line : lines.warnings)
         listener.warn(line);
@@ -97,6 +110,7 @@ LoadedScene loadScene(const SceneRequest& request, const Listener& listener) {
     if (request.fog.isGiven()) addFog(*scene, request.fog);
     const double seconds = watch.seconds();
     report(scene->report, listener);
+    requireSomethingToDraw(*scene, request);
     return {std::move(scene), seconds, atRest, rotationOfFile};
 }
 

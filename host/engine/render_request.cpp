@@ -208,10 +208,13 @@ ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
 
 void warnOfBlackPicture(const Scene& scene, const std::string& name, const RenderRequest& request,
                         const Listener& listener) {
-    if (scene.triangles.empty() && scene.spheres.empty())
-        listener.warn(fmt::format("{} has no geometry: the picture is {}", name,
-                                  request.transparent ? "all transparent" : "black"));
-    else if (!shines(scene) && request.estimator.integrator == Integrator::Path)
+    const bool isOfLight = request.estimator.integrator == Integrator::Path;
+    if (scene.placedTriangles() == 0 && scene.spheres.empty())
+        listener.warn(fmt::format("{} has no surfaces: the picture is {}", name,
+                                  request.transparent                      ? "all transparent"
+                                  : isOfLight && hasSomethingToDraw(scene) ? "of what is around it"
+                                                                           : "black"));
+    else if (!shines(scene) && isOfLight)
         listener.warn(fmt::format("{} has no light: the picture is black (--default-light on: a "
                                   "plain sky lights it)",
                                   name));

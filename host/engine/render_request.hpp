@@ -109,7 +109,7 @@ struct ResolvedPicture {
 ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
                                const Listener& listener = {});
 
-/// Warns of a scene without geometry or light.
+/// Warns of a scene without surfaces or light.
 void warnOfBlackPicture(const Scene& scene, const std::string& name, const RenderRequest& request,
                         const Listener& listener);
 

@@ -11,6 +11,14 @@ namespace stromboli {
 /// emission is an ornament.
 static constexpr double kLeastRadiance = 0.05;
 
+bool hasSomethingToDraw(const Scene& scene) {
+    if (scene.placedTriangles() > 0 || !scene.spheres.empty()) return true;
+    if (scene.surrounding != kNoMedium) return true;
+    return scene.environment && scene.environment->strength > 0 &&
+           std::ranges::any_of(scene.environment->radiance,
+                               [](const glm::vec3& radiance) { return radiance != glm::vec3(0); });
+}
+
 bool shines(const Scene& scene) {
     const auto emits = [&](const auto& shape) { return scene.materials[shape.material].emits(); };
     if (scene.environment) return true;

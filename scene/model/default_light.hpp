@@ -4,6 +4,10 @@
 
 namespace stromboli {
 
+/// Whether a picture could show anything of it: surfaces, a sky that is not black, or a medium all
+/// around.
+bool hasSomethingToDraw(const Scene& scene);
+
 /// True if anything gives light: a light, or geometry whose material emits, that is not black.
 bool shines(const Scene& scene);
 

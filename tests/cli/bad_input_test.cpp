@@ -13,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kHead = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -61,8 +62,9 @@ class BadInput : public testing::Test {
         EXPECT_THAT(folder.entries(), testing::Not(testing::Contains("out.png")));
     }
 
-    void expectSceneRefused(const std::string& text, const std::string& message) {
-        expectRefused(renderFile(folder.write("bad.dae", text)), kScene, message);
+    void expectSceneRefused(const std::string& text, const std::string& message,
+                            const std::string& name = "bad.dae") {
+        expectRefused(renderFile(folder.write(name, text)), kScene, message);
     }
 };
 
@@ -108,13 +110,32 @@ TEST_F(BadInput, NanAndInfinityAreNotNumbers) {
     expectSceneRefused(document("0 0 0 1 0 0 0 INF 0", "0 1 2"), "bad.dae:");
 }
 
-TEST_F(BadInput, EmptyMeshIsBlackNotAnError) {
-    const ProgramRun run = renderFile(folder.write(
-        "empty.dae", kHead + "<library_visual_scenes><visual_scene id='s'/>"
-                             "</library_visual_scenes><scene><instance_visual_scene url='#s'/>"
-                             "</scene></COLLADA>"));
-    EXPECT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("no geometry"));
+/// What leaves nothing to draw is an error, whatever the format; lamps alone are not seen.
+TEST_F(BadInput, NothingToDraw) {
+    const std::pair<const char*, std::string> files[] = {
+        {"empty.dae", kHead + "<library_visual_scenes><visual_scene id='s'/>"
+                              "</library_visual_scenes><scene><instance_visual_scene url='#s'/>"
+                              "</scene></COLLADA>"},
+        {"empty.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{}], "scene": 0})"},
+        {"empty.xml", "<scene version='3.0.0'><emitter type='point'/></scene>"},
+        {"dark.xml", "<scene version='3.0.0'><emitter type='constant'>"
+                     "<rgb name='radiance' value='0'/></emitter></scene>"},
+        {"empty.pbrt", "WorldBegin\nLightSource \"point\"\n"}};
+    for (const auto& [name, text] : files)
+        expectSceneRefused(text, "has nothing to draw: expected surfaces", name);
+}
+
+/// A sky is something to draw, that of the file or that of the command line.
+TEST_F(BadInput, ASkyAloneIsDrawn) {
+    const std::string lit =
+        folder.write("sky.xml", "<scene version='3.0.0'><emitter type='constant'/></scene>");
+    const std::string bare =
+        folder.write("bare.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{}], "scene": 0})");
+    for (const ProgramRun& run : {renderFile(lit), renderFile(bare, {"--env", "evening_sky"})}) {
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("has no surfaces: the picture is of what is around it"));
+        EXPECT_THAT(run.err, Not(HasSubstr("black")));
+    }
 }
 
 TEST_F(BadInput, CameraFromAFileWithoutOne) {

@@ -189,16 +189,13 @@ TEST_F(Layers, ThatMakeNoSenseAreRefused) {
                 HasSubstr("only render"));
 }
 
-TEST_F(Layers, ATransparentPictureOfNothingSaysSo) {
-    const std::string empty = folder.write(
-        "empty.dae",
-        R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<library_visual_scenes><visual_scene id="s"/></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+TEST_F(Layers, ATransparentPictureOfASkySaysSo) {
+    const std::string empty =
+        folder.write("sky.xml", "<scene version='3.0.0'><emitter type='constant'/></scene>");
     const ProgramRun run = stromboli(
         {"render", empty, "-o", folder.file("a.png"), "--transparent", "-r", "4", "3", "-s", "1"});
     EXPECT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("has no geometry: the picture is all transparent"));
+    EXPECT_THAT(run.err, HasSubstr("has no surfaces: the picture is all transparent"));
     EXPECT_THAT(readPng(folder.file("a.png")).alpha, testing::Each(0));
 }
 
