@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 namespace stromboli::collada {
@@ -105,12 +106,20 @@ Reference Document::lookUp(const Element& at, const char* attribute, const char*
     };
     const size_t hash = reference.find('#');
     if (hash == std::string::npos)
+        if (const Element* target = findId(kind, reference)) {
+            forgive(at, fmt::format("{}=\"{}\" has no '#'", attribute, reference),
+                    "the element with this id is taken");
+            return {target, ""};
+        }
+    if (hash == std::string::npos)
         return {nullptr, fmt::format("{}=\"{}\" must be the id of a <{}>, written as #id",
                                      attribute, reference, kind)};
-    if (hash > 0)
+    const std::string_view file = std::string_view(reference).substr(0, hash);
+    if (hash > 0 && std::filesystem::path(build::percentDecoded(file)).filename() !=
+                        std::filesystem::path(file_).filename())
         return problem(" refers to another file; only references within the file (#id) are "
                        "supported");
-    if (const Element* target = find(kind, reference)) return {target, ""};
+    if (const Element* target = findId(kind, reference.substr(hash + 1))) return {target, ""};
     return problem(fmt::format(": the file has no <{}> with this id", kind));
 }
 

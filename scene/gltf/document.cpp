@@ -5,6 +5,7 @@
 #include "scene/build/read_file.hpp"
 #include "scene/build/unicode.hpp"
 #include "scene/gltf/extensions.hpp"
+#include "scene/gltf/lenient_json.hpp"
 #include "scene/gltf/meshopt.hpp"
 #include "scene/gltf/uri.hpp"
 
@@ -17,17 +18,39 @@ namespace {
 /// Levels of brackets within each other: files of this format have about ten, without `extras`.
 constexpr int kDeepest = 256;
 
+Json readJson(const std::string& file, const std::string& text, FileParts& parts) {
+    std::string problem;
+    try {
+        return parseJson(text, kDeepest);
+    } catch (const JsonError& error) {
+        problem = error.what();
+    }
+    try {
+        Json json = parseJson(correctedJson(text), kDeepest);
+        parts.oddities.push_back({problem, "comments and commas in front of brackets are skipped, "
+                                           "numbers that are none count as absent"});
+        return json;
+    } catch (const JsonError&) {
+        throw SceneError(file, 0, "", fmt::format("is no glTF: {}", problem));
+    }
+}
+
 std::shared_ptr<FileParts> readParts(const std::string& file) {
     auto parts = std::make_shared<FileParts>();
     parts->bytes = build::readFile(file);
     parts->container = openContainer(file, parts->bytes);
-    const std::string json = build::utf8WithLatin1(parts->container.json);
-    parts->isUtf8 = json == parts->container.json;
-    try {
-        parts->json = std::make_shared<const Json>(parseJson(json, kDeepest));
-    } catch (const JsonError& error) {
-        throw SceneError(file, 0, "", fmt::format("is no glTF: {}", error.what()));
+    std::string json(parts->container.json);
+    if (build::utf16Beginning(json))
+        if (std::optional<std::string> text = build::textInUtf8(json)) {
+            json = *std::move(text);
+            parts->oddities.push_back({"is in UTF-16", "it is read as if it were in UTF-8"});
+        }
+    if (std::string characters = build::utf8WithLatin1(json); characters != json) {
+        json = std::move(characters);
+        parts->oddities.push_back(
+            {"has bytes that are no UTF-8", "they are read as characters of Latin-1"});
     }
+    parts->json = std::make_shared<const Json>(readJson(file, json, *parts));
     return parts;
 }
 
@@ -37,9 +60,8 @@ Document::Document(const std::filesystem::path& file, build::Report& report, bui
     : report_(&report), path_(file), file_(file.string()) {
     const auto read = [&] { return readParts(file_); };
     parts_ = kept ? kept->parts<FileParts>(file_, read) : read();
-    if (!parts_->isUtf8)
-        report.forgive({file_, 0, ""}, "has bytes that are no UTF-8",
-                       "they are read as characters of Latin-1");
+    for (const auto& [problem, reading] : parts_->oddities)
+        report.forgive({file_, 0, ""}, problem, reading);
     if (!parts_->container.problem.empty())
         report.forgive({file_, 0, ""}, parts_->container.problem, "all of its chunks are there");
     root_ = std::make_unique<Element>(file_, "", *parts_->json, &report);

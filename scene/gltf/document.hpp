@@ -19,7 +19,8 @@ struct FileParts {
     std::string bytes;
     Container container; ///< views of the bytes
     std::shared_ptr<const Json> json;
-    bool isUtf8 = true;
+    /// What is wrong with the text, and how it is read.
+    std::vector<std::pair<std::string, std::string>> oddities;
     std::map<size_t, std::string> buffers, unpackedViews; ///< those that were asked for
 };
 

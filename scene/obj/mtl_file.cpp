@@ -54,6 +54,17 @@ constexpr MapKeyword kMaps[] = {
     {"norm", &MtlMaterial::normalMap},      {"map_kn", &MtlMaterial::normalMap},
     {"bump", &MtlMaterial::bumpMap},        {"map_bump", &MtlMaterial::bumpMap}};
 
+/// What some programs call a map in plain words.
+struct OtherName {
+    std::string_view name, means;
+};
+constexpr OtherName kOtherNames[] = {
+    {"map_color", "map_kd"},    {"map_diffuse", "map_kd"},   {"map_basecolor", "map_kd"},
+    {"map_specular", "map_ks"}, {"map_emissive", "map_ke"},  {"map_emission", "map_ke"},
+    {"map_opacity", "map_d"},   {"map_alpha", "map_d"},      {"map_roughness", "map_pr"},
+    {"map_metallic", "map_pm"}, {"map_metalness", "map_pm"}, {"map_normal", "norm"},
+    {"map_norm", "norm"},       {"normal", "norm"}};
+
 // What has a meaning in files of Blender only.
 constexpr ColorKeyword kBlenderColors[] = {{"ka", &MtlMaterial::ambient}};
 constexpr MapKeyword kBlenderMaps[] = {{"map_ns", &MtlMaterial::exponentMap},
@@ -109,7 +120,12 @@ class MtlReader {
     }
 
   private:
-    void readStatement(const std::string& keyword) {
+    void readStatement(std::string keyword) {
+        if (const auto* other = find(kOtherNames, keyword)) {
+            report_.forgive(statements_.place(), "is no statement of MTL",
+                            fmt::format("it is read as '{}'", other->means));
+            keyword = other->means;
+        }
         if (keyword == "newmtl") {
             // A line of a few bytes; a material takes many.
             build::requireMemory(statements_.place().file,
@@ -219,6 +235,9 @@ class MtlReader {
         }
         if (map.name.empty())
             return report_.replace(statements_.place(), build::Shortfall::Picture, "names no file");
+        if (result && result->name != map.name)
+            report_.forgive(statements_.place(), "is there twice in a material",
+                            "the last one counts");
         result = std::move(map);
     }
 

@@ -68,7 +68,7 @@ TEST(Errors, References) {
     EXPECT_THAT(error("<instance_geometry url=\"#gone\"/>"), HasSubstr("no <geometry>"));
     EXPECT_THAT(error("<instance_geometry url=\"#n\"/>"), HasSubstr("no <geometry>"));
     EXPECT_THAT(error("<instance_geometry/>"), HasSubstr("no attribute 'url'"));
-    EXPECT_THAT(error("<instance_geometry url=\"mesh\"/>"), HasSubstr("written as #id"));
+    EXPECT_THAT(error("<instance_geometry url=\"gone\"/>"), HasSubstr("written as #id"));
     EXPECT_THAT(error("<instance_geometry url=\"\"/>"), HasSubstr("written as #id"));
     EXPECT_THAT(error("<instance_geometry url=\"#\"/>"), HasSubstr("no <geometry>"));
     EXPECT_THAT(error("<instance_geometry url=\"other.dae#mesh\"/>"), HasSubstr("another file"));

@@ -137,6 +137,27 @@ TEST(Forgiven, DecimalCommas) {
     expectNear(corner(scene, 0, 2), {0, -0.125, 0.25});
 }
 
+TEST(Forgiven, ReferencesWithoutAMark) {
+    DocumentText document;
+    document.libraries = triangleLibrary();
+    document.nodes = "<node><instance_geometry url=\"mesh\"/></node>";
+    const Scene scene =
+        forgiven(document, "[0-9]+: <instance_geometry>: url=\"mesh\" has no '#': the element .*");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+}
+
+TEST(Forgiven, ReferencesMayNameTheirOwnFile) {
+    DocumentText document;
+    document.libraries = triangleLibrary();
+    document.nodes = "<node><instance_geometry url=\"./own%20name.dae#mesh\"/></node>";
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / std::to_string(getpid()) / "own name.dae";
+    std::filesystem::create_directory(file.parent_path());
+    std::ofstream(file) << document.str();
+    EXPECT_EQ(loadCollada(file, strict()).triangles.size(), 1u);
+    std::filesystem::remove_all(file.parent_path());
+}
+
 TEST(Forgiven, MaterialsThatAreNotThere) {
     expectGrey(forgiven(withMaterial(""), "7: <instance_material>: target=\"#m\": the file has no "
                                           "<material> with this id: mid grey .*"));

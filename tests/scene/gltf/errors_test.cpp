@@ -46,11 +46,43 @@ TEST(GltfErrors, Json) {
     EXPECT_THAT(gltfProblem(""), HasSubstr("is no glTF: its JSON is wrong in line 1"));
     EXPECT_EQ(gltfProblem("[]"), "is no object, expected {...}");
     EXPECT_EQ(gltfProblem("{}"), "is no glTF 2.0: it has no 'asset'");
-    EXPECT_THAT(gltfProblem("{\"asset\": {\"version\": NaN}}"), HasSubstr("wrong in line 1"));
+    EXPECT_THAT(gltfProblem("{\"asset\": {\"version\": oops}}"), HasSubstr("wrong in line 1"));
     EXPECT_EQ(gltfProblem("{\"asset\": 1e999}"),
               "is no glTF: its JSON has a number beyond the range of double");
     EXPECT_EQ(gltfProblem(std::string(500000, '[')),
               "is no glTF: brackets go deeper than 256 levels");
+}
+
+/// What people and programs add to JSON by mistake; the text is otherwise that of a triangle.
+TEST(GltfErrors, JsonThatIsNearlyRight) {
+    const std::string right = triangle().text();
+    ASSERT_TRUE(right.starts_with("{") && right.ends_with("}"));
+    const std::string inside = right.substr(1, right.size() - 2);
+    const std::string texts[] = {
+        "{ // by hand, {\n" + inside + "}",
+        "{ /* by hand,\n * \" { */ " + inside + "}",
+        "{" + inside + ",\n}",
+        "{" + inside + R"(, "extras": [1, 2, "http://a/*,]" , ], "more": "\", }"})",
+        "{" + inside + R"(, "extras": [NaN, -Infinity, inf]})",
+    };
+    for (const std::string& text : texts) {
+        EXPECT_EQ(gltfProblem(text), "") << text;
+        EXPECT_THAT(gltfProblem(text, strictly()), HasSubstr("its JSON is wrong")) << text;
+    }
+    // A comment may hold what is wrong itself; what is no comment stays wrong, in the file's lines.
+    EXPECT_THAT(gltfProblem("{ // ,\n" + inside + ", oops}"), HasSubstr("is no glTF"));
+    EXPECT_THAT(gltfProblem("{ /* \n" + inside + "}"), HasSubstr("wrong in line 1"));
+}
+
+TEST(GltfErrors, TextInUtf16) {
+    for (const bool isMarked : {true, false}) {
+        std::string text = isMarked ? "\xFF\xFE" : "";
+        for (const char c : triangle().text())
+            text += {c, '\0'};
+        EXPECT_EQ(gltfProblem(text), "");
+        EXPECT_THAT(gltfProblem(text, strictly()), HasSubstr("is in UTF-16"));
+    }
+    EXPECT_EQ(gltfProblem("\xEF\xBB\xBF" + triangle().text(), strictly()), "");
 }
 
 TEST(GltfErrors, Versions) {

@@ -346,6 +346,33 @@ TEST_F(ObjMaterials, DecimalCommasAreReadAsPoints) {
     EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("decimal comma")));
 }
 
+TEST_F(ObjMaterials, MapsMayHavePlainNames) {
+    const std::pair<const char*, const char*> names[] = {
+        {"map_emissive", "map_Ke"},
+        {"map_Opacity", "map_d"},
+        {"map_Roughness", "map_Pr"},
+        {"map_metallic", "map_Pm"},
+        {"map_normal", "norm"},
+        {"map_diffuse", "map_Kd"},
+        {"Ks 1 1 1\nNs 9\nmap_specular", "Ks 1 1 1\nNs 9\nmap_Ks"}};
+    for (const auto& [plain, known] : names) {
+        const Scene scene = load(std::string(plain) + " mask.png\n");
+        const Scene expected = load(std::string(known) + " mask.png\n");
+        EXPECT_EQ(scene.textures.size(), 1u) << plain;
+        EXPECT_EQ(scene.materials.at(0).textures.at(0).slot,
+                  expected.materials.at(0).textures.at(0).slot)
+            << plain;
+        EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("it is read as"))) << plain;
+    }
+}
+
+TEST_F(ObjMaterials, OfTwoMapsOfOneKindTheLastCounts) {
+    const Scene scene = load("map_Kd mask.png\nmap_Kd red green.png\n");
+    EXPECT_EQ(imageOf(scene, TextureSlot::BaseColor).words.at(0), 0xFF0000FFu);
+    EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("twice in a material")));
+    EXPECT_THAT(load("bump mask.png\nmap_Bump mask.png\n").report.forgiven, IsEmpty());
+}
+
 TEST_F(ObjMaterials, PicturesMayHaveAColourSpaceOrAnotherEnding) {
     EXPECT_EQ(load("map_Kd -colorspace sRGB mask.png\n").textures.size(), 1u);
     EXPECT_THAT(load("map_Kd -colorspace linear mask.png\n").report.ignored,
