@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -103,10 +103,12 @@ Companion companionNamed(const fs::path& folder, std::string_view written) {
     return {};
 }
 
-/// The endings of pictures that are read, and those of others that scenes name.
+/// The endings of pictures that are read, in the order in which one takes the place of another;
+/// that of one more, which holds data and takes no place; and those of others that scenes name.
 constexpr std::string_view kRead[] = {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp",
                                       ".gif", ".tif", ".tiff", ".dds",  ".exr", ".hdr"};
-constexpr std::string_view kOthers[] = {".psd", ".ktx2", ".pfm"};
+constexpr std::string_view kFloats = ".pfm";
+constexpr std::string_view kUnread[] = {".psd", ".ktx", ".ktx2", ".avif", ".jxl"};
 
 /// What is left where a name ends in a dot and some letters.
 std::string_view withoutEnding(std::string_view name) {
@@ -116,10 +118,17 @@ std::string_view withoutEnding(std::string_view name) {
     return isEnding ? name.substr(0, dot) : name;
 }
 
+std::string endingOf(std::string_view name) {
+    return inSmallLetters(std::string(name.substr(withoutEnding(name).size())));
+}
+
+bool isAmong(std::span<const std::string_view> endings, const std::string& ending) {
+    return std::ranges::find(endings, ending) != endings.end();
+}
+
 bool endsAsPicture(std::string_view name) {
-    const std::string ending = inSmallLetters(std::string(name.substr(withoutEnding(name).size())));
-    return std::ranges::find(kRead, ending) != std::end(kRead) ||
-           std::ranges::find(kOthers, ending) != std::end(kOthers);
+    const std::string ending = endingOf(name);
+    return isAmong(kRead, ending) || isAmong(kUnread, ending) || ending == kFloats;
 }
 
 /// As the name is written, or else with the codes of a URI, or in Latin-1.
@@ -149,13 +158,16 @@ Companion companion(const fs::path& folder, std::string_view written) {
 Companion pictureCompanion(const fs::path& folder, std::string_view written) {
     Companion found = companionRead(folder, written);
     const std::string_view name = withoutEnding(written);
-    if (found.path || name.empty()) return found;
+    const bool isUnread = isAmong(kUnread, endingOf(written));
+    if ((found.path && !isUnread) || name.empty()) return found;
     for (const std::string_view ending : kRead)
         if (const Companion other = companionRead(folder, fmt::format("{}{}", name, ending));
             other.path)
-            return {other.path, fmt::format("{} is not there", quoted(written)),
+            return {other.path,
+                    fmt::format("{} is {}", quoted(written),
+                                found.path ? "of a kind that is not read" : "not there"),
                     "the picture of the same name with another ending is taken"};
-    return {};
+    return found;
 }
 
 } // namespace stromboli::build

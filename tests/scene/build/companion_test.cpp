@@ -3,6 +3,7 @@
 #include "scene/build/companion.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -62,7 +63,8 @@ TEST(Companions, MayHaveTheCodesOfUrisOrBytesOfLatin1) {
 }
 
 TEST(Companions, OfPicturesMayHaveAnotherEnding) {
-    const CompanionFolder folder({"maps/wood.png", "wall.jpg", "wall.obj", ".png", "roof.dds", "tile.tif"});
+    const CompanionFolder folder({"maps/wood.png", "wall.jpg", "wall.obj", ".png", "roof.dds",
+                                  "tile.tif", "brick.psd", "brick.jpg", "sand.ktx2"});
     EXPECT_EQ(pictureCompanion("", "maps/wood.psd").path, "maps/wood.png");
     EXPECT_EQ(pictureCompanion("", "C:\\maps\\wall.tif").path, "wall.jpg");
     EXPECT_EQ(pictureCompanion("", "wall").path, "wall.jpg");
@@ -70,6 +72,11 @@ TEST(Companions, OfPicturesMayHaveAnotherEnding) {
     EXPECT_EQ(companion("", "wall.tif").path, "wall.jpg");
     EXPECT_EQ(companion("", "roof.tga").path, "roof.dds");
     EXPECT_EQ(companion("", "tile.png").path, "tile.tif");
+    // What is not read is as good as not there, unless there is nothing else.
+    EXPECT_EQ(companion("", "brick.psd").path, "brick.jpg");
+    EXPECT_THAT(companion("", "brick.psd").problem, testing::HasSubstr("kind that is not read"));
+    EXPECT_EQ(companion("", "sand.ktx2").path, "sand.ktx2");
+    EXPECT_EQ(companion("", "sand.ktx2").problem, "");
     EXPECT_FALSE(companion("", "wall.stl").path);
     EXPECT_FALSE(companion("", "wall").path);
     EXPECT_FALSE(pictureCompanion("", "floor.tif").path);
