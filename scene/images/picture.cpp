@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace stromboli::images {
 
 void failToDecode(const std::string& name, std::string_view format, std::string_view problem) {
@@ -53,6 +55,21 @@ bool isTiff(std::string_view bytes) {
     return mark == "II*\0"sv || mark == "MM\0*"sv || mark == "II+\0"sv || mark == "MM\0+"sv;
 }
 
+/// What is known of pictures that are not read, for the message about them.
+std::string whatItIs(std::string_view bytes) {
+    using namespace std::string_view_literals;
+    constexpr std::pair<std::string_view, const char*> kinds[] = {
+        {"8BPS"sv, "Photoshop's PSD"},   {"\xABKTX"sv, "KTX"}, {"\xFF\x0A"sv, "JPEG XL"},
+        {"\0\0\0\x0CJXL "sv, "JPEG XL"}, {"<svg"sv, "SVG"},    {"\0\0\0\x0CjP"sv, "JPEG 2000"}};
+    for (const auto& [mark, name] : kinds)
+        if (bytes.starts_with(mark))
+            return fmt::format("is a picture in {}, which is not read", name);
+    const std::string_view kind = bytes.size() < 12 ? "" : bytes.substr(4, 8);
+    if (kind == "ftypavif") return "is a picture in AVIF, which is not read";
+    if (kind == "ftypheic" || kind == "ftypmif1") return "is a picture in HEIF, which is not read";
+    return "is no picture that is read";
+}
+
 } // namespace
 
 Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t largestSide) {
@@ -69,9 +86,10 @@ Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t 
     if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return decodePfm(bytes, name);
     if (looksLikeTga(bytes)) return decodeTga(bytes, name);
     throw SceneError(name, 0, "",
-                     bytes.empty() ? "is empty, expected a picture"
-                                   : "is no picture that is read: expected PNG, JPEG, WebP, "
-                                     "GIF, BMP, TIFF, DDS, Radiance HDR, OpenEXR, PFM or TGA");
+                     bytes.empty()
+                         ? "is empty, expected a picture"
+                         : whatItIs(bytes) + ": expected PNG, JPEG, WebP, GIF, BMP, "
+                                             "TIFF, DDS, Radiance HDR, OpenEXR, PFM or TGA");
 }
 
 } // namespace stromboli::images

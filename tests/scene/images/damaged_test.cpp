@@ -39,6 +39,10 @@ TEST(DamagedPictures, SayWhatTheyAreNot) {
     EXPECT_EQ(messageOf(""), "a.png: is empty, expected a picture");
     EXPECT_EQ(messageOf("II*"), "a.png: is no picture that is read: expected PNG, JPEG, WebP, GIF, "
                                 "BMP, TIFF, DDS, Radiance HDR, OpenEXR, PFM or TGA");
+    EXPECT_THAT(messageOf("8BPS" + std::string(30, '\0')),
+                HasSubstr("is a picture in Photoshop's PSD, which is not read: expected PNG"));
+    EXPECT_THAT(messageOf("\xABKTX 20\xBB"), HasSubstr("is a picture in KTX, which is not read"));
+    EXPECT_THAT(messageOf(std::string("\0\0\0\x1C", 4) + "ftypavif"), HasSubstr("in AVIF"));
     EXPECT_THAT(messageOf("GIF89a"), HasSubstr("a.png: cannot be read as GIF"));
 }
 
