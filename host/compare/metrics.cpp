@@ -39,6 +39,9 @@ Picture fromBytes(const ByteImage& image) {
 Picture fromOthers(const fs::path& path, bool lowDynamicRange) {
     try {
         const images::RadiancePicture read = images::readRadiance(path);
+        for (const images::PictureFault& fault : read.faults)
+            throw UsageError(fmt::format("{}: {}: expected a whole picture to compare",
+                                         path.string(), fault.problem));
         Picture picture(read.width, read.height);
         picture.lowDynamicRange = lowDynamicRange;
         for (size_t i = 0; i < picture.rgb.size(); ++i)

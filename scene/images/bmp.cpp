@@ -118,9 +118,12 @@ Picture decodeBmp(std::string_view bytes, const std::string& name) {
     if (h.width < 0) fail("the width is negative");
     const uint64_t width = uint64_t(h.width), height = uint64_t(std::abs(h.height));
     const uint64_t rowBytes = (width * h.bits + 31) / 32 * 4;
-    // A run of two bytes holds at most 255 pixels.
+    // A run of two bytes holds at most 255 pixels. Elsewhere a part of the rows is shown, but not
+    // next to nothing of a picture of any size.
+    constexpr uint64_t leastPart = 256;
     requireSize(name, width, height, 4, bytes.size(),
-                h.pixelsAt + (hasRuns ? width * height / 255 * 2 : rowBytes * height));
+                h.pixelsAt + (hasRuns ? width * height / 255 * 2
+                                      : std::max(rowBytes, rowBytes * height / leastPart)));
     const size_t table = kFileHeader + h.infoSize;
     const uint64_t mostColors = hasTable ? uint64_t(1) << h.bits : 0;
     const uint64_t colors = h.colors == 0 ? mostColors : std::min<uint64_t>(h.colors, mostColors);
@@ -134,9 +137,16 @@ Picture decodeBmp(std::string_view bytes, const std::string& name) {
     Picture picture{uint32_t(width), uint32_t(height), std::vector<uint8_t>()};
     auto& values = std::get<std::vector<uint8_t>>(picture.values);
     values.reserve(4 * picture.texelCount());
+    bool isWhole = true;
     for (uint64_t row = 0; row < height; ++row) {
         const size_t line =
             (hasRuns ? 0 : h.pixelsAt) + rowBytes * (h.height < 0 ? row : height - 1 - row);
+        if (line + rowBytes > pixels.size()) { // missing: mid grey
+            for (uint64_t column = 0; column < width; ++column)
+                values.insert(values.end(), {127, 127, 127, 255});
+            isWhole = false;
+            continue;
+        }
         for (uint64_t column = 0; column < width; ++column) {
             size_t at = line + column * h.bits / 8;
             if (h.bits == 16) {
@@ -159,6 +169,7 @@ Picture decodeBmp(std::string_view bytes, const std::string& name) {
             values.push_back(255);
         }
     }
+    if (!isWhole) picture.addFault(build::Shortfall::PicturePart, "the file is truncated");
     return picture;
 }
 

@@ -162,9 +162,38 @@ void spread(const Subsampled& channel, size_t width, size_t height, std::vector<
         }
 }
 
+/// Reads all rows into the part's frame buffer; where `problem` is given, those before and those
+/// behind the ones that cannot be read, and what is wrong with these. Throws if there are none.
+void readRows(Imf::InputPart& part, std::string* problem) {
+    const Imath::Box2i window = part.header().dataWindow();
+    try {
+        return part.readPixels(window.min.y, window.max.y);
+    } catch (const std::exception& error) {
+        if (!problem) throw;
+        *problem = error.what();
+    }
+    // The library may tell of an error at the next call once more: a row is tried twice.
+    const auto isRead = [&](int y) {
+        for (int i = 0; i < 2; ++i)
+            try {
+                part.readPixels(y, y);
+                return true;
+            } catch (const std::exception&) {
+            }
+        return false;
+    };
+    int first = window.min.y, last = window.max.y;
+    while (first <= last && isRead(first))
+        ++first;
+    while (last > first && isRead(last))
+        --last;
+    if (first == window.min.y && last == window.max.y) throw std::runtime_error(*problem);
+}
+
 /// Red, green, blue and alpha of the data window. All channels are read at once: their blocks are
-/// compressed together.
-std::vector<float> readColors(Imf::InputPart& part, const ExrChannels& channels) {
+/// compressed together. `problem`: as of readRows().
+std::vector<float> readColors(Imf::InputPart& part, const ExrChannels& channels,
+                              std::string* problem) {
     const Imath::Box2i window = part.header().dataWindow();
     const auto width = size_t(widthOf(window)), height = size_t(heightOf(window));
     std::vector<float> rgba(width * height * 4, 0.0f);
@@ -193,7 +222,7 @@ std::vector<float> readColors(Imf::InputPart& part, const ExrChannels& channels)
         if (!channels.color[i].empty() && (i == 0 || !channels.isGrey)) add(channels.color[i], i);
     if (!channels.alpha.empty()) add(channels.alpha, 3);
     part.setFrameBuffer(buffer);
-    part.readPixels(window.min.y, window.max.y);
+    readRows(part, problem);
     for (const Subsampled& s : subsampled)
         spread(s, width, height, rgba);
     for (size_t i = 0; channels.alpha.empty() && i < rgba.size(); i += 4)
@@ -232,11 +261,12 @@ Picture inDisplayWindow(const std::string& name, const Imf::Header& header,
 
 /// The colours of a part, checked before they take memory.
 std::vector<float> readChecked(Imf::InputPart& part, const ExrChannels& channels,
-                               std::string_view bytes, const std::string& name) {
+                               std::string_view bytes, const std::string& name,
+                               std::string* problem) {
     const Imath::Box2i window = part.header().dataWindow();
     requireSize(name, uint64_t(widthOf(window)), uint64_t(heightOf(window)), 24, bytes.size(),
                 uint64_t(heightOf(window)) / 256 * 8);
-    return readColors(part, channels);
+    return readColors(part, channels, problem);
 }
 
 Picture readExrPixels(std::string_view bytes, const std::string& name) {
@@ -245,9 +275,12 @@ Picture readExrPixels(std::string_view bytes, const std::string& name) {
     Imf::MultiPartInputFile file(source);
     const ShownPart shown = shownPart(file);
     Imf::InputPart part(file, shown.number);
-    Picture picture =
-        inDisplayWindow(name, part.header(), readChecked(part, shown.channels, bytes, name));
-    return asEnvironment(meaningOf(part.header()), std::move(picture));
+    std::string problem;
+    Picture picture = inDisplayWindow(name, part.header(),
+                                      readChecked(part, shown.channels, bytes, name, &problem));
+    picture = asEnvironment(meaningOf(part.header()), std::move(picture));
+    if (!problem.empty()) picture.addFault(build::Shortfall::PicturePart, problem);
+    return picture;
 }
 
 PicturePart readExrLayer(std::string_view bytes, const std::string& name,
@@ -259,7 +292,8 @@ PicturePart readExrLayer(std::string_view bytes, const std::string& name,
     Imf::InputPart part(file, shown.number);
     const Imath::Box2i data = part.header().dataWindow(), whole = part.header().displayWindow();
     PicturePart result{{uint32_t(widthOf(data)), uint32_t(heightOf(data)), {}}};
-    result.picture.values = readChecked(part, shown.channels, bytes, name);
+    // What is to be compared or shown by itself is whole, or an error.
+    result.picture.values = readChecked(part, shown.channels, bytes, name, nullptr);
     const bool isInside = whole.intersects(data.min) && whole.intersects(data.max);
     const Imath::Box2i& frame = isInside ? whole : data;
     result.left = uint32_t(data.min.x - frame.min.x);

@@ -4,7 +4,9 @@
 #include "host/film/image_formats.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/support/refusal.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -99,6 +101,15 @@ TEST(ReadPicture, KindsThatLoadersRead) {
     EXPECT_FALSE(hdr.lowDynamicRange);
     EXPECT_NEAR(hdr.rgb[0].x, 2, 0.02); // 128 / 256 * 2^2
     EXPECT_NEAR(hdr.rgb[0].z, 0.5, 0.02);
+}
+
+/// Loaders show a part of a picture; a comparison with it would mean nothing.
+TEST(ReadPicture, APartOfAPictureIsRefused) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "a.hdr") << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n"
+                                    << "\x80\x40\x20\x82\x80";
+    EXPECT_THAT(test::refusalOf([&] { readPicture(folder / "a.hdr"); }),
+                testing::HasSubstr("the file is truncated: expected a whole picture"));
 }
 
 TEST(ReadPicture, StatisticsComeBackAsAFilm) {

@@ -96,6 +96,16 @@ std::string problemOf(const std::string& bytes) {
     return "";
 }
 
+/// Rows that are there are shown, those at the bottom first, and what is missing is mid grey.
+TEST(Bitmaps, ThatEndTooEarlyAreShownAsFarAsTheyGo) {
+    const Picture picture = decodePicture(bitmap(2, 2, 24, kRows.substr(0, 15)), "picture");
+    EXPECT_THAT(std::get<std::vector<uint8_t>>(picture.values),
+                ElementsAre(127, 127, 127, 255, 127, 127, 127, 255, 3, 2, 1, 255, 6, 5, 4, 255));
+    ASSERT_EQ(picture.faults.size(), 1u);
+    EXPECT_EQ(picture.faults[0].problem, "the file is truncated");
+    EXPECT_THAT(problemOf(bitmap(2, 2, 24, kRows.substr(0, 7))), HasSubstr("truncated"));
+}
+
 TEST(Bitmaps, WrongOnesSayWhy) {
     EXPECT_THAT(problemOf("BM"), HasSubstr("the header is truncated"));
     EXPECT_THAT(problemOf(bitmap(2, 2, 12, kRows)), HasSubstr("pixels have 12 bits"));

@@ -301,6 +301,23 @@ TEST(FloatImages, OfRadianceThatEndTooEarlyAreShownAsFarAsTheyGo) {
     EXPECT_THROW(readFloatImage(File(whole.substr(0, whole.size() - 9)).path), SceneError);
 }
 
+/// So it is in OpenEXR files for environments; what is compared or shown by itself has to be whole.
+TEST(FloatImages, OfOpenExrThatEndTooEarlyAreShownAsFarAsTheyGo) {
+    Floats noise(64 * 64 * 3);
+    uint32_t random = 1;
+    for (float& value : noise)
+        value = float((random = random * 1664525u + 1013904223u) >> 8);
+    const std::string whole = test::exr(64, 64, "RGB", noise, false);
+    const File file(whole.substr(0, whole.size() / 2));
+    const FloatImage image = readFloatImage(file.path);
+    for (size_t i = 0; i < 64 * 16; ++i)
+        EXPECT_EQ(image.texels.at(i).x, noise[3 * i]) << i;
+    EXPECT_EQ(image.texels.at(64 * 64 - 1), glm::vec3(0));
+    ASSERT_EQ(image.faults.size(), 1u);
+    EXPECT_EQ(image.faults[0].kind, build::Shortfall::PicturePart);
+    EXPECT_THROW(readRadiance(file.path), SceneError);
+}
+
 TEST(FloatImages, OfRadianceAreDividedByExposureAndColourCorrection) {
     const FloatImage plain = readFloatImage(File(hdrOf("", "-Y 2 +X 2")).path);
     const FloatImage corrected = readFloatImage(
