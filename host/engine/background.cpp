@@ -3,6 +3,8 @@
 #include "scene/find_scene.hpp"
 #include "scene/images/float_image.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +12,11 @@ namespace stromboli {
 
 Background backgroundFrom(const std::string& file) {
     images::FloatImage image = images::readFloatImage(environmentFile(file));
-    return {image.width, image.height, std::move(image.texels)};
+    Background background{image.width, image.height, std::move(image.texels)};
+    for (const images::PictureFault& fault : image.faults)
+        background.faults.push_back(fmt::format("the background {}: {}: {}", file, fault.problem,
+                                                build::insteadOf(fault.kind)));
+    return background;
 }
 
 namespace {

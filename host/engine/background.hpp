@@ -17,6 +17,7 @@ struct Background {
     /// Linear radiance, row after row from the top; one texel: a colour.
     uint32_t width = 1, height = 1;
     std::vector<glm::vec3> radiance{glm::vec3(0)};
+    std::vector<std::string> faults{}; ///< what is wrong with its picture, a line each
 };
 
 /// A picture of any format that environments have, which becomes as large as covers the frame,

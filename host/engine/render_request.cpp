@@ -184,6 +184,9 @@ ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
                                const Listener& listener) {
     if (request.transparent && request.background)
         throw UsageError("a picture that is transparent has no background");
+    if (request.background)
+        for (const std::string& fault : request.background->faults)
+            listener.warn(fault);
     ResolvedPicture picture;
     RenderSettings& settings = picture.settings;
     settings = {areaOf(scene, request), withHints(scene.hints, request), {}};

@@ -156,16 +156,21 @@ Textures::Image Textures::load(const Element& element) {
     if (reference.empty()) return {std::nullopt, "names no file in <init_from>"};
     std::optional<Companion> file;
     TextureImage picture;
+    std::vector<images::PictureFault> faults;
     try {
         file = document.companions().read(reference);
         if (!file)
             return {std::nullopt, fmt::format("'{}' is not in the document's folder", reference)};
         const std::string name = document.place(element).describe(reference);
-        picture = images::textureImage(images::decodePicture(file->bytes, reference), name, true);
+        images::Picture decoded = images::decodePicture(file->bytes, reference);
+        faults = std::move(decoded.faults);
+        picture = images::textureImage(decoded, name, true);
     } catch (const SceneError& error) {
         return {std::nullopt, error.what()};
     }
     if (!file->problem.empty()) document.forgive(element, file->problem, file->reading);
+    for (const images::PictureFault& fault : faults)
+        document.replace(element, fault.kind, fmt::format("{}: {}", reference, fault.problem));
     const uint32_t largest = context_.conventions.selection.largestTexture;
     if (largest > 0) images::shrinkToFit(picture, largest, true);
     requireRoom(picture.words.size() * sizeof(uint32_t), element);

@@ -57,6 +57,8 @@ build::Mesh heightfieldMesh(const Context& context, const Plugin& shape) {
     const Plugin& plugin = pictureOf(shape, scale);
     const std::filesystem::path file = context.document.file(plugin, "filename");
     const images::Picture picture = images::decodePicture(build::readFile(file), file.string());
+    for (const images::PictureFault& fault : picture.faults)
+        plugin.replace(fault.kind, fmt::format("{}: {}", file.string(), fault.problem));
     if (picture.width < 2 || picture.height < 2)
         plugin.fail("is one texel wide or high, expected two or more");
     const bool isRaw =

@@ -215,6 +215,8 @@ void Lights::placeProjection(const Parameters& p, const glm::dmat4& worldFromLig
     const double fov = p.number("fov", context_.isV3() ? 45 : 90, 0.01, 170);
     const double tangent = std::tan(glm::radians(fov) / 2);
     const images::FloatImage image = images::readFloatImage(context_.files.find(p.place(), file));
+    for (const images::PictureFault& fault : image.faults)
+        p.replace(fault.kind, fmt::format("{}: {}", file, fault.problem));
     const double aspect = double(image.width) / image.height;
     const glm::dvec2 tangents =
         tangent * glm::dvec2(std::max(aspect, 1.0), std::max(1 / aspect, 1.0));

@@ -138,6 +138,15 @@ TEST_F(BadInput, ASkyAloneIsDrawn) {
     }
 }
 
+TEST_F(BadInput, APartOfABackgroundIsSaid) {
+    // A TGA of two rows of one grey pixel, of which the second is not there.
+    const std::string part =
+        folder.write("part.tga", std::string("\0\0\3\0\0\0\0\0\0\0\0\0\1\0\2\0\x08\x20\7", 19));
+    const ProgramRun run = renderFile(folder.write("good.dae", kGood), {"--background", part});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("part.tga: the file is truncated: what there is of it"));
+}
+
 TEST_F(BadInput, CameraFromAFileWithoutOne) {
     expectRefused(renderFile(folder.write("good.dae", kGood), {"--camera", "file"}), kScene,
                   "camera");

@@ -221,6 +221,17 @@ TEST_F(ColladaTextures, NothingOutsideTheFolderIsRead) {
     }
 }
 
+TEST_F(ColladaTextures, APartOfAPictureIsSaid) {
+    // A TGA of two rows of one grey pixel, of which the second is not there.
+    write("in/part.tga", std::string("\0\0\3\0\0\0\0\0\0\0\0\0\1\0\2\0\x08\x20\7", 19));
+    TexturedText text;
+    text.path = "part.tga";
+    const Scene scene = load(text);
+    EXPECT_EQ(scene.images.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven,
+                ElementsAre(HasSubstr("part.tga: the file is truncated: what there is of it")));
+}
+
 TEST_F(ColladaTextures, MissingOrDamagedOnesAreGrey) {
     write("in/bad.png", "\x89PNG\r\n\x1a\n");
     SceneConventions strict;
