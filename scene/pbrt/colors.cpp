@@ -1,9 +1,6 @@
 #include "scene/pbrt/colors.hpp"
 
-#include "scene/build/number_word.hpp"
-#include "scene/build/read_file.hpp"
 #include "scene/build/spectrum.hpp"
-#include "scene/pbrt/tokens.hpp"
 
 #include <fmt/format.h>
 
@@ -94,24 +91,10 @@ Samples sorted(const std::vector<double>& numbers) {
     return samples;
 }
 
-/// A file has a wavelength and a value in each line, and comments behind #.
+/// A file has a wavelength and a value in each line.
 Samples samplesOfFile(const Context& context, const Parameters& parameters, const Parameter& p) {
-    const build::FilePlace where = parameters.placeOf(p);
-    const std::string text = build::readFile(context.files.find(where, p.words.front()));
-    std::vector<double> numbers;
-    Tokens tokens(text);
-    tokens.begin();
-    while (tokens.peek().kind != Token::Kind::End) {
-        std::string_view word = tokens.take().text;
-        if (word.ends_with(',')) word.remove_suffix(1);
-        if (word.empty()) continue;
-        const std::optional<double> number = build::realIn(word);
-        if (!number)
-            where.fail(fmt::format("names a file of wavelengths and values that holds '{}'",
-                                   word.substr(0, 40)));
-        numbers.push_back(*number);
-    }
-    return sorted(numbers);
+    return sorted(
+        context.files.numbers(parameters.placeOf(p), p.words.front(), "wavelengths and values"));
 }
 
 /// Values at wavelengths that a parameter states, or a file that it names; nothing for what is no

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace stromboli::pbrt {
 
@@ -17,6 +19,11 @@ class Files {
 
     /// Throws SceneError at `where` if it is not there.
     std::filesystem::path find(const build::FilePlace& where, const std::string& name) const;
+    /// The numbers of a text file, with commas behind them or not, and comments behind #. Throws
+    /// SceneError at `where` if the file holds anything else than numbers; `of` says in the message
+    /// what they are meant to be.
+    std::vector<double> numbers(const build::FilePlace& where, const std::string& name,
+                                std::string_view of) const;
 
   private:
     std::filesystem::path folder_;

@@ -1,5 +1,7 @@
 #include "scene/pbrt/view.hpp"
 
+#include "scene/build/number_word.hpp"
+#include "scene/build/tolerate.hpp"
 #include "scene/build/vectors.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 #include <string_view>
 
 namespace stromboli::pbrt {
@@ -183,8 +186,61 @@ double View::halfShorterSide(const CameraRead& camera) const {
         return std::tan(glm::radians(degrees) / 2);
     }
     // A lens of 50 mm before the film.
+    return halfShorterSideOfFilm() / 0.05;
+}
+
+double View::halfShorterSideOfFilm() const {
+    constexpr double kMillimetre = 1e-3;
     const double aspect = double(std::max(width_, height_)) / std::min(width_, height_);
-    return diagonal_ / 2 / std::sqrt(1 + aspect * aspect) / 50;
+    return diagonal_ * kMillimetre / 2 / std::sqrt(1 + aspect * aspect);
+}
+
+/// The focal length that the name of a lens file states, as pbrt's own do: "wide.22mm.dat"; metres.
+static std::optional<double> focalLengthIn(const std::string& name) {
+    std::smatch found;
+    if (!std::regex_search(name, found, std::regex("([0-9]{1,4}(\\.[0-9]{1,4})?) ?mm")))
+        return std::nullopt;
+    const std::optional<double> length = build::realIn(found[1].str());
+    if (!length || !(*length > 0)) return std::nullopt;
+    return *length * 1e-3;
+}
+
+/// What is seen through the lens of several elements of a realistic camera; nothing if there is
+/// nothing to say what it is.
+std::optional<ThinLens> View::lensOf(const CameraRead& read) const {
+    const Parameters& p = read.parameters;
+    const std::optional<std::string> file = p.text("lensfile");
+    if (read.kind != "realistic" || !file) return std::nullopt;
+    const double aperture = p.number("aperturediameter", 1, 1e-6, 1e6) * 1e-3;
+    const double focus = p.number("focusdistance", 10, 1e-6, 1e9);
+    std::optional<ThinLens> lens;
+    build::tolerate(context_.report(), build::Shortfall::Model, [&] {
+        lens = thinLensOf(surfacesOf(context_, p, aperture), focus);
+        if (!lens) p.placeOf(*p.find("lensfile")).fail("names a lens that makes no picture");
+    });
+    if (!lens)
+        if (const std::optional<double> length = focalLengthIn(*file))
+            lens = thinLensOf(simpleLens(*length, aperture), focus);
+    return lens;
+}
+
+/// pbrt has such cameras in metres, the film at their origin.
+void View::setLens(const CameraRead& read, const ThinLens& lens, FileCamera& camera,
+                   glm::dmat4& pose) {
+    const Parameters& p = read.parameters;
+    p.replace(build::Shortfall::Model, "has a lens of several elements",
+              fmt::format("a thin lens of {:.1f} mm", 1e3 * lens.focalLength));
+    if (p.has("aperture"))
+        p.replaceParameter("aperture", build::Shortfall::Parameter,
+                           "is the shape of the stop, which is round here");
+    const glm::dvec3 scale = build::axisLengths(pose);
+    pose = pose * glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, lens.beforeFilm));
+    constexpr double kFar = 1e6;
+    camera.lensRadius = lens.radius * scale.x;
+    camera.focusDistance = (lens.focusDistance > 0 ? lens.focusDistance : kFar) * scale.z;
+    // pbrt-v3 leaves the lens's share of the light out unless it is told not to.
+    const bool isWeighted = !context_.isV3() || !p.flag("simpleweighting", true);
+    lensLight_ = isWeighted ? lens.irradiance : 1;
 }
 
 void View::placeCamera(const CameraRead& read) {
@@ -193,7 +249,8 @@ void View::placeCamera(const CameraRead& read) {
     camera.name = read.kind;
     camera.medium = read.medium;
     const bool isOrthographic = read.kind == "orthographic";
-    if (!isOrthographic && read.kind != "perspective")
+    const std::optional<ThinLens> lens = lensOf(read);
+    if (!lens && !isOrthographic && read.kind != "perspective")
         p.replace(build::Shortfall::Model, "is no camera that is read",
                   "a perspective one with a lens of 50 mm");
     double aspect = double(width_) / height_;
@@ -207,7 +264,9 @@ void View::placeCamera(const CameraRead& read) {
     else if (!stated.empty())
         p.replaceParameter("screenwindow", build::Shortfall::Word,
                            "is no window, expected left, right, bottom and top");
-    const double unit = isOrthographic ? 1 : halfShorterSide(read);
+    const double unit = isOrthographic ? 1
+                        : lens         ? halfShorterSideOfFilm() * lens->perFilmLength
+                                       : halfShorterSide(read);
     camera.halfWidth = unit * (window[1] - window[0]) / 2;
     camera.halfHeight = unit * (window[3] - window[2]) / 2;
     const glm::dvec2 middle = unit * glm::dvec2(window[0] + window[1], window[2] + window[3]) / 2.0;
@@ -222,6 +281,8 @@ void View::placeCamera(const CameraRead& read) {
     if (isOrthographic && radius > 0) {
         context_.report().ignore("'lensradius' of an orthographic camera",
                                  "such cameras have no lens here");
+    } else if (lens) {
+        setLens(read, *lens, camera, pose);
     } else {
         // Lengths of the camera's own space.
         const glm::dvec3 scale = build::axisLengths(pose);
@@ -249,7 +310,8 @@ void View::finish() {
         placeCamera(*camera_);
     }
     const double time = std::max(exposureTime_.value_or(shutter), 0.0);
-    context_.imagingRatio = context_.isV3() ? filmScale_ : filmScale_ * time * iso_ / 100;
+    context_.imagingRatio =
+        lensLight_ * (context_.isV3() ? filmScale_ : filmScale_ * time * iso_ / 100);
     if (!(context_.imagingRatio > 0)) {
         context_.report().warn("the film sees no light: its exposure or its scale is 0; 1 is "
                                "taken");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/pbrt/context.hpp"
+#include "scene/pbrt/lenses.hpp"
 #include "scene/pbrt/parameters.hpp"
 
 #include <glm/glm.hpp>
@@ -39,12 +40,17 @@ class View {
     void readSensor(const Parameters& film);
     void placeCamera(const CameraRead& camera);
     double halfShorterSide(const CameraRead& camera) const;
+    double halfShorterSideOfFilm() const; ///< metres
+    std::optional<ThinLens> lensOf(const CameraRead& camera) const;
+    void setLens(const CameraRead& read, const ThinLens& lens, FileCamera& camera,
+                 glm::dmat4& pose);
 
     Context& context_;
     uint32_t width_ = 1280, height_ = 720;
     std::optional<CameraRead> camera_;
     double iso_ = 100, filmScale_ = 1, diagonal_ = 35;
     std::optional<double> exposureTime_;
+    double lensLight_ = 1; ///< what the lens lets through, of a film that it matters to
     bool hasFilter_ = false;
 };
 

@@ -88,6 +88,66 @@ TEST(PbrtCamera, OthersAreReplacedByAPerspectiveOne) {
     EXPECT_THAT(problemOf(text), HasSubstr("1: <Camera \"realistic\">: is no camera that is read"));
 }
 
+/// A scene of a lamp of the radiance 1 before such a camera; 36 mm x 24 mm of film.
+Scene sceneThrough(const std::string& lens, const std::string& more, const char* film = "rgb") {
+    return loadText(
+        std::string("Film \"") + film +
+        "\" \"integer xresolution\" 300 \"integer yresolution\" 200 \"float diagonal\" "
+        "43.266615 Camera \"realistic\" \"float aperturediameter\" 10 \"string lensfile\" \"" +
+        lens + "\" " + more + " WorldBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] " +
+        kTriangle);
+}
+
+double lightThrough(const Scene& scene) {
+    return scene.materials.at(scene.triangles.at(0).material).emission.x;
+}
+
+TEST(PbrtRealisticCamera, IsThatOfAThinLens) {
+    const std::string lens =
+        writeFile("thin.dat", "# a thin lens\n0 0 0 20\n50 0 1.5 90\n-50 9 1 90\n")
+            .filename()
+            .string();
+    const Scene scene = sceneThrough(lens, "\"float focusdistance\" 5");
+    const FileCamera& camera = scene.cameras.at(0);
+    // s + v = 5 and 1 / s + 1 / v = 1 / 0.05.
+    const double v = (5 - std::sqrt(25 - 4 * 5 * 0.05)) / 2;
+    EXPECT_NEAR(*camera.halfHeight, 0.012 / v, 1e-7);
+    EXPECT_NEAR(*camera.halfWidth, 0.018 / v, 1e-7);
+    EXPECT_NEAR(camera.focusDistance, 5 - v, 1e-9);
+    EXPECT_NEAR(camera.lensRadius, 0.005, 1e-9);
+    EXPECT_NEAR(camera.position.z, v, 1e-9);
+    const double light = M_PI * 0.005 * 0.005 / (v * v);
+    EXPECT_NEAR(lightThrough(scene), light, 1e-6 * light);
+    const std::string v3 = "\"float focusdistance\" 5 \"bool simpleweighting\" ";
+    EXPECT_DOUBLE_EQ(lightThrough(sceneThrough(lens, v3 + "\"true\"", "image")), 1);
+    EXPECT_NEAR(lightThrough(sceneThrough(lens, v3 + "\"false\"", "image")), light, 1e-6 * light);
+}
+
+TEST(PbrtRealisticCamera, MayHaveSeveralElements) {
+    // Two thin lenses, 100 and 50 mm, and the stop 20 mm apart: its image in the first is the
+    // pupil.
+    const std::string lens =
+        writeFile("two.dat", "100, 0, 1.5, 90\n-100, 20, 1, 90\n0, 20, 0, 90\n50 0 1.5 90\n"
+                             "-50 30 1 90\n")
+            .filename()
+            .string();
+    const Scene scene = sceneThrough(lens, "\"float focusdistance\" 1e9");
+    const FileCamera& camera = scene.cameras.at(0);
+    const double focal = 0.1 * 0.05 / (0.1 + 0.05 - 0.04);
+    EXPECT_NEAR(*camera.halfHeight, 0.012 / focal, 1e-6);
+    // A stop 20 mm behind 100 mm seems 25 mm behind it, and 5 / 4 as wide.
+    EXPECT_NEAR(camera.lensRadius, 0.005 * 1.25, 1e-9);
+    const double behind = focal * (1 - 0.04 / 0.1);
+    EXPECT_NEAR(camera.position.z, 0.04 + behind - 0.025, 1e-7);
+    EXPECT_THAT(scene.report.forgiven, testing::Contains(HasSubstr("a thin lens of 45.5 mm")));
+}
+
+TEST(PbrtRealisticCamera, HasTheFocalLengthOfTheNameWithoutItsFile) {
+    const Scene scene = sceneThrough("lenses/wide.22mm.dat", "\"float focusdistance\" 1e9");
+    EXPECT_NEAR(*scene.cameras.at(0).halfHeight, 12.0 / 22, 1e-6);
+    EXPECT_THAT(scene.report.forgiven, testing::Contains(HasSubstr("which is not there")));
+}
+
 RenderHints hintsOf(const std::string& before) {
     return loadText(before + " WorldBegin " + kTriangle).hints;
 }
