@@ -58,7 +58,7 @@ Surface plastic(SurfaceMaker& maker) {
     m.ior = float(refractiveIndex(maker.plugin, "int_ior", "polypropylene") /
                   refractiveIndex(maker.plugin, "ext_ior", "air"));
     m.isNonlinear = maker.plugin.flag("nonlinear").value_or(false);
-    if (maker.plugin.type == "roughplastic") maker.facets(false); // a table of one alpha
+    if (maker.plugin.type != "plastic") maker.facets(false); // a table of one alpha
     m.internalViews = 64;
     maker.color("diffuse_reflectance", glm::dvec3(0.5), m.albedo, TextureSlot::BaseColor);
     maker.color("specular_reflectance", glm::dvec3(1), m.reflectance, TextureSlot::SpecularColor);
@@ -88,7 +88,8 @@ Surface readModel(Context& context, Textures& textures, const Plugin& bsdf) {
     if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric")
         return dielectric(maker);
     if (type == "conductor" || type == "roughconductor") return conductor(maker);
-    if (type == "plastic" || type == "roughplastic") return plastic(maker);
+    // Without polarisation pplastic is roughplastic.
+    if (type == "plastic" || type == "roughplastic" || type == "pplastic") return plastic(maker);
     if (type == "principled") return principled(maker);
     if (type == "principledthin") return principledThin(maker);
     if (type == "null") return nothing(maker);

@@ -60,7 +60,20 @@ Value spectrumOf(const build::FilePlace& where, std::string_view text) {
     const std::vector<std::string_view> words = wordsOf(text);
     if (text.find(':') == std::string_view::npos) {
         if (words.size() == 3) return rgbOf(where, text);
-        spectrum.everywhere = numberOf(where, text);
+        if (words.size() < 2) {
+            spectrum.everywhere = numberOf(where, text);
+            return spectrum;
+        }
+        // Means of as many parts of what Mitsuba 0.x sees, for programs built with so many.
+        constexpr double kFirst = 360, kLast = 830;
+        const double width = (kLast - kFirst) / double(words.size());
+        for (size_t i = 0; i < words.size(); ++i)
+            spectrum.samples.emplace_back(kFirst + width * (double(i) + 0.5),
+                                          numberOf(where, words[i]));
+        const double first = spectrum.samples.front().second;
+        const double last = spectrum.samples.back().second;
+        spectrum.samples.emplace(spectrum.samples.begin(), kFirst, first);
+        spectrum.samples.emplace_back(kLast, last);
         return spectrum;
     }
     for (const std::string_view word : words) {

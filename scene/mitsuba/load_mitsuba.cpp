@@ -10,6 +10,7 @@
 #include "scene/xml/root_element.hpp"
 
 #include <new>
+#include <set>
 
 namespace stromboli {
 namespace mitsuba {
@@ -31,12 +32,25 @@ void turnWorld(Context& context, const Plugin& scene) {
     }
 }
 
+/// The lamps that shapes have, and shapes within these.
+void collectLampsOf(const Plugin& holder, std::set<const Plugin*>& lamps) {
+    for (const Plugin::Child& child : holder.children()) {
+        if (!child.plugin || child.plugin->tag != "shape") continue;
+        for (const Plugin::Child& inside : child.plugin->children())
+            if (inside.plugin && inside.plugin->tag == "emitter") lamps.insert(inside.plugin);
+        if (child.plugin->type != "instance") collectLampsOf(*child.plugin, lamps);
+    }
+}
+
 void readScene(Context& context) {
     const Plugin& scene = context.document.scene();
     turnWorld(context, scene);
+    std::set<const Plugin*> lamps;
+    collectLampsOf(scene, lamps);
     for (const Plugin* emitter : scene.childrenOf("emitter"))
-        build::tolerate(context.report(), build::Shortfall::Node,
-                        [&] { placeEmitter(context, *emitter); });
+        if (!lamps.contains(emitter)) // which may stand in the scene for shapes to refer to
+            build::tolerate(context.report(), build::Shortfall::Node,
+                            [&] { placeEmitter(context, *emitter); });
     bool isFirst = true;
     Shapes shapes(context);
     for (const Plugin* sensor : scene.childrenOf("sensor"))

@@ -272,7 +272,16 @@ Surface blend(Context& context, Textures& textures, const Plugin& plugin) {
     const Shade share =
         textures.shade(plugin, "weight", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
     plugin.requireAllRead();
-    return mixed(plugin, std::move(first), std::move(second), meanOf(share.color), share.texture);
+    double weight = meanOf(share.color);
+    std::optional<TextureUse> picture = share.texture;
+    // Where the share is a picture, only the second one may be a mixture in its turn.
+    if (picture && first.other && !second.other && !isNothing(second))
+        if (const auto rest = textures.complementOf(*picture, weight)) {
+            std::swap(first, second);
+            picture = rest;
+            weight = 1;
+        }
+    return mixed(plugin, std::move(first), std::move(second), weight, picture);
 }
 
 Surface mixture(Context& context, Textures& textures, const Plugin& plugin) {

@@ -1,6 +1,7 @@
 #include "scene/mitsuba/replaced_bsdfs.hpp"
 
 #include "scene/build/fresnel.hpp"
+#include "scene/build/hair_color.hpp"
 #include "scene/mitsuba/media_tables.hpp"
 #include "scene/mitsuba/nested_bsdfs.hpp"
 #include "scene/mitsuba/scattering_tables.hpp"
@@ -169,6 +170,45 @@ Surface layer(Context& context, Textures& textures, const Plugin& plugin) {
     return maker.done();
 }
 
+Surface hair(Context& context, Textures& textures, const Plugin& plugin) {
+    say(plugin, "a rough surface of its colour");
+    const auto fraction = [&](const char* name) { return plugin.number(name, 0, 1).value_or(0.3); };
+    const double along = fraction("longitudinal_roughness"),
+                 about = fraction("azimuthal_roughness");
+    const double red = plugin.number("pheomelanin", 0).value_or(0);
+    const double dark = plugin.number("eumelanin", 0).value_or(1.3);
+    const glm::dvec3 absorbed = textures.meanOf(
+        textures.shade(plugin, "sigma_a", ColorOf::Index, build::absorptionOfHair(dark, red)));
+    plugin.skip("scale_tilt");
+    SurfaceMaker maker(plugin, textures, context);
+    Material& m = maker.material;
+    m.kind = MaterialKind::Principled;
+    m.principled.baseColor = glm::vec3(build::colorOfHair(absorbed, about));
+    m.principled.metallic = 0;
+    m.principled.roughness = float(std::sqrt(along));
+    m.principled.ior = float(refractiveIndex(plugin, "int_ior", "amber") /
+                             refractiveIndex(plugin, "ext_ior", "air"));
+    return maker.done();
+}
+
+/// What turns or chooses a polarisation, which light does not have here: it lets through as much of
+/// light without any.
+Surface polarizationFilter(Context& context, Textures& textures, const Plugin& plugin) {
+    say(plugin, "a surface that lets as much light through");
+    SurfaceMaker maker(plugin, textures, context);
+    glm::vec3 through(1.0f);
+    maker.plainColor("transmittance", glm::dvec3(1), through);
+    for (const char* unused : {"theta", "delta", "left_handed", "polarizing"})
+        plugin.skip(unused);
+    const float kept = plugin.type == "retarder" ? 1.0f : 0.5f;
+    Material& m = maker.material;
+    m.kind = MaterialKind::Diffuse;
+    m.albedo = glm::vec3(0);
+    m.alphaMode = AlphaMode::Blend;
+    m.opacity = 1 - kept * (through.x + through.y + through.z) / 3;
+    return maker.done();
+}
+
 /// The one inside, or diffuse of a texture or of a colour that it states.
 Surface unknown(Context& context, Textures& textures, const Plugin& plugin) {
     if (!plugin.childrenOf("bsdf").empty()) {
@@ -200,6 +240,9 @@ Surface replacedBsdf(Context& context, Textures& textures, const Plugin& bsdf) {
     if (type == "difftrans") return diffuseTransmitter(context, textures, bsdf);
     if (type == "coating" || type == "roughcoating") return coating(context, textures, bsdf);
     if (type == "hk") return layer(context, textures, bsdf);
+    if (type == "hair") return hair(context, textures, bsdf);
+    if (type == "polarizer" || type == "circular" || type == "retarder")
+        return polarizationFilter(context, textures, bsdf);
     return unknown(context, textures, bsdf);
 }
 

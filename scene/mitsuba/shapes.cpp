@@ -106,6 +106,7 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     const bool staysSphere =
         isSphere && !flips && !material.wantsCoordinates() && build::isSimilarity(part.toWorld);
     if (staysSphere) {
+        usableAttribute(shape, material.cornerColors);
         part.shape = context_.builder.addSphere(shape.displayName(), 1);
     } else {
         build::Mesh mesh = meshOf(shape, material);

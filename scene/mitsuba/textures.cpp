@@ -121,6 +121,24 @@ Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
     return found.value_or(Shade{otherwise, {}, {}});
 }
 
+std::optional<TextureUse> Textures::complementOf(const TextureUse& use, double factor) {
+    if (paintOf(use.texture)) return std::nullopt;
+    Texture texture = context_.builder.textureOf(use.texture);
+    const TextureImage& image = context_.builder.imageOf(use.texture);
+    TextureImage rest{image.name, image.width, image.height, TexelFormat::RgbaHalf, {}};
+    const size_t count = size_t(image.width) * image.height;
+    for (size_t i = 0; i < count; ++i) {
+        const double value = std::clamp(build::colorAt(image, i, texture.srgb).x, 0.0, 1.0);
+        build::appendTexel(rest.words, glm::dvec3(1 - factor * value), Layout::Red);
+    }
+    bytes_ += rest.words.size() * sizeof(uint32_t);
+    texture.srgb = false;
+    texture.image = context_.builder.addImage(std::move(rest));
+    TextureUse other = use;
+    other.texture = context_.builder.addTexture(texture);
+    return other;
+}
+
 glm::uvec2 Textures::sizeOf(const TextureUse& use) const {
     const TextureImage& image = context_.builder.imageOf(use.texture);
     return {image.width, image.height};
@@ -287,13 +305,14 @@ Textures::Read Textures::image(const Plugin& plugin, bool raw, Layout layout, ch
     return images_[key] = Read{context_.builder.addImage(*std::move(image)), isColored};
 }
 
-/// A colour of a pattern.
-static glm::dvec3 colorNamed(const Plugin& pattern, const char* name, ColorOf what,
-                             double otherwise, Layout layout) {
-    const std::optional<glm::dvec3> color = colorOf(pattern, name, what);
-    if (!color && pattern.child(name))
-        pattern.replaceParameter(name, build::Shortfall::Word, "is a texture, expected a colour");
-    const glm::dvec3 found = color.value_or(glm::dvec3(otherwise));
+/// A colour of a pattern; of a texture in its place the mean.
+glm::dvec3 Textures::colorNamed(const Plugin& pattern, const char* name, ColorOf what,
+                                double otherwise, Layout layout) {
+    const Shade stated = shade(pattern, name, what, glm::dvec3(otherwise));
+    if (stated.texture)
+        pattern.replace(build::Shortfall::Model,
+                        fmt::format("'{}' is a texture, expected a colour", name), "its mean");
+    const glm::dvec3 found = meanOf(stated);
     return isOfMeans(pattern, layout) ? glm::dvec3((found.x + found.y + found.z) / 3) : found;
 }
 

@@ -54,6 +54,10 @@ class Textures {
     /// Adds a picture to the scene, as a texture that is clamped.
     uint32_t add(TextureImage image, const Plugin& shape);
 
+    /// 1 minus so many times what a texture has in red, as another texture in red; nothing for mesh
+    /// attributes.
+    std::optional<TextureUse> complementOf(const TextureUse& use, double factor);
+
     /// Width and height in texels.
     glm::uvec2 sizeOf(const TextureUse& use) const;
 
@@ -70,6 +74,8 @@ class Textures {
     };
     Read image(const Plugin& texture, bool raw, Layout layout, char channel);
     Shade meshAttribute(const Plugin& texture, const std::string& name, Layout layout);
+    glm::dvec3 colorNamed(const Plugin& pattern, const char* name, ColorOf what, double otherwise,
+                          Layout layout);
     Shade shown(const Plugin& texture, TextureImage image, bool isNearest);
     void countBytes(const TextureImage& image, const Plugin& plugin);
 

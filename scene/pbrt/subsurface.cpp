@@ -1,5 +1,6 @@
 #include "scene/pbrt/subsurface.hpp"
 
+#include "scene/build/hair_color.hpp"
 #include "scene/pbrt/media.hpp"
 
 #include <algorithm>
@@ -83,19 +84,11 @@ Surface hair(const SurfaceMaker& maker) {
     for (const char* name : {"reflectance", "color"})
         if (p.has(name)) color = maker.pattern(name, glm::dvec3(0.5)).mean();
     if (!color) {
-        // Absorption by melanin and the colour of hair that absorbs so much: Chiang et al., "A
-        // Practical and Controllable Hair and Fur Model", 2016.
         const double dark = maker.number("eumelanin", p.has("pheomelanin") ? 0 : 1.3, 0, 1e3);
         const double red = maker.number("pheomelanin", 0, 0, 1e3);
         const glm::dvec3 absorbed =
-            maker
-                .pattern("sigma_a",
-                         dark * glm::dvec3(0.419, 0.697, 1.37) + red * glm::dvec3(0.187, 0.4, 1.05),
-                         ColorOf::Number)
-                .mean();
-        const double width = 5.969 - 0.215 * b + 2.532 * b * b - 10.73 * std::pow(b, 3) +
-                             5.574 * std::pow(b, 4) + 0.245 * std::pow(b, 5);
-        color = glm::exp(-glm::sqrt(glm::max(absorbed, 0.0)) * width);
+            maker.pattern("sigma_a", build::absorptionOfHair(dark, red), ColorOf::Number).mean();
+        color = build::colorOfHair(absorbed, b);
     }
     maker.say("a rough surface of its colour");
     PrincipledParameters& principled = surface.material.principled;

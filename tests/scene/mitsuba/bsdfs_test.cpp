@@ -145,6 +145,10 @@ TEST(MitsubaBsdfs, Plastics) {
     EXPECT_EQ(plastic.facets.alpha.x, 0.1f);
     EXPECT_EQ(plastic.facets.masking, FacetMasking::Separable);
     EXPECT_EQ(plastic.internalViews, 64u);
+    const Material polarizing =
+        materialOf("<bsdf type=\"pplastic\"><float name=\"alpha\" value=\"0.3\"/></bsdf>");
+    EXPECT_EQ(polarizing.kind, MaterialKind::Plastic);
+    EXPECT_EQ(polarizing.facets.alpha, glm::vec2(0.3f));
 }
 
 TEST(MitsubaBsdfs, BumpsAreHeights) {

@@ -84,6 +84,17 @@ TEST(MitsubaEmitters, SurfacesShineInFront) {
     EXPECT_THAT(problemInside("<emitter type=\"area\"/>"), HasSubstr("expected it inside of a"));
 }
 
+/// It may stand in the scene, for shapes to refer to.
+TEST(MitsubaEmitters, SurfacesMayReferToTheirLamp) {
+    const std::string lamp = "<emitter type=\"area\" id=\"lamp\"/>";
+    const std::string shape = "<shape type=\"rectangle\"><ref id=\"lamp\"/></shape>";
+    for (const std::string& inside :
+         {lamp + shape, lamp + "<shape type=\"merge\">" + shape + "</shape>"}) {
+        EXPECT_EQ(problemInside(inside), "");
+        EXPECT_EQ(loadInside(inside).materials.at(0).emission, glm::vec3(1));
+    }
+}
+
 /// As Mitsuba has it: a lamp without a bsdf is black, other shapes are grey.
 TEST(MitsubaEmitters, LampsReflectByTheirBsdfAlone) {
     const auto albedoOf = [](const std::string& inside) {

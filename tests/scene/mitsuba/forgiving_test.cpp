@@ -1,6 +1,7 @@
 // What cannot be read is replaced or left out, and said; the rest is shown. With --strict each of
 // these is an error.
 
+#include "scene/build/texels.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <fmt/format.h>
@@ -169,6 +170,9 @@ TEST(MitsubaForgives, Seconds) {
 }
 
 TEST(MitsubaForgives, BsdfsThatDoNotFit) {
+    forgiven(ballOf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" "
+                    "type=\"vertexcolors\"/></bsdf>"),
+             "has a bsdf with a mesh attribute", "the mesh is shown without it");
     const std::string blend = "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/>"
                               "<bsdf type=\"plastic\"/></bsdf>";
     const Scene scene =
@@ -216,6 +220,12 @@ TEST(MitsubaForgives, PicturesAsNumbers) {
                         "name=\"specular_transmittance\" type=\"checkerboard\"/></bsdf>"),
                  "'specular_transmittance' is a texture", "its mean");
     EXPECT_NEAR(glass.materials.at(1).transmittance.x, 0.3, 1e-3);
+    const Scene squares =
+        forgiven(ballOf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" "
+                        "type=\"checkerboard\"><texture name=\"color0\" type=\"checkerboard\"/>"
+                        "</texture></bsdf>"),
+                 "'color0' is a texture", "its mean");
+    EXPECT_NEAR(build::colorAt(squares.images.at(1), 0, false).x, 0.3, 1e-3);
 }
 
 TEST(MitsubaForgives, Media) {
@@ -269,6 +279,29 @@ TEST(MitsubaForgives, NotWhatLeavesNothing) {
     EXPECT_THAT(problem(kBall + "<shape type=\"sphere\">"), HasSubstr("not well-formed XML"));
     EXPECT_THROW(loadText("<sculpture/>"), SceneError);
     EXPECT_THROW(loadText(sceneText(kBall), {{"unknown", "1"}}), SceneError);
+}
+
+/// A first one that is a blend takes the place, in the rest of a share that a picture says.
+TEST(MitsubaForgives, NoBlendsOfBlendsByPictures) {
+    const std::string blend =
+        "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>";
+    const Scene scene = loadInside(
+        rectangleOf("<bsdf type=\"blendbsdf\"><texture name=\"weight\" type=\"scale\"><float "
+                    "name=\"scale\" value=\"0.5\"/><texture type=\"checkerboard\"><float "
+                    "name=\"color0\" value=\"0.25\"/><float name=\"color1\" "
+                    "value=\"0.75\"/></texture></texture>" +
+                    blend + "<bsdf type=\"plastic\"/></bsdf>"));
+    EXPECT_TRUE(scene.report.forgiven.empty());
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(m.kind, MaterialKind::Plastic);
+    EXPECT_EQ(m.otherShare, 1.0f);
+    EXPECT_EQ(scene.materials.at(m.other).kind, MaterialKind::Diffuse);
+    ASSERT_EQ(m.textures.size(), 1u);
+    EXPECT_EQ(m.textures[0].slot, TextureSlot::BlendShare);
+    const TextureImage& image = scene.images.at(scene.textures.at(m.textures[0].texture).image);
+    // Of numbers the first square has color1.
+    EXPECT_EQ(build::colorAt(image, 0, false).x, 1 - 0.5 * 0.75);
+    EXPECT_EQ(build::colorAt(image, 1, false).x, 1 - 0.5 * 0.25);
 }
 
 TEST(MitsubaForgives, NothingOfWhatIsRight) {

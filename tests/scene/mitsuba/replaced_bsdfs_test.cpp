@@ -206,6 +206,35 @@ TEST(MitsubaReplacedBsdfs, ScatteringLayers) {
     EXPECT_GT(ketchup.albedo.x, 5 * ketchup.albedo.z);
 }
 
+TEST(MitsubaReplacedBsdfs, HairHasTheColorOfItsMelanin) {
+    const auto hair = [](const std::string& inside) {
+        const Found found = partsOf("<bsdf type=\"hair\">" + inside + "</bsdf>");
+        EXPECT_THAT(found.forgiven, Contains(HasSubstr("a rough surface of its colour")));
+        EXPECT_EQ(found.parts.size(), 1u);
+        return found.parts.at(0).second.principled;
+    };
+    const PrincipledParameters brown = hair("");
+    EXPECT_LT(brown.baseColor.x, 0.1f);
+    EXPECT_GT(brown.baseColor.x, 2 * brown.baseColor.z);
+    EXPECT_GT(hair("<float name=\"eumelanin\" value=\"0.1\"/>").baseColor.x, 0.2f);
+    EXPECT_EQ(hair("<rgb name=\"sigma_a\" value=\"0 0 0\"/>").baseColor, glm::vec3(1));
+    EXPECT_FLOAT_EQ(hair("<float name=\"longitudinal_roughness\" value=\"0.25\"/>").roughness,
+                    0.5f);
+}
+
+TEST(MitsubaReplacedBsdfs, PolarizationFiltersLetLightThrough) {
+    for (const auto& [type, kept] :
+         {std::pair("polarizer", 0.25f), {"circular", 0.25f}, {"retarder", 0.5f}}) {
+        const Found found = partsOf(fmt::format(
+            "<bsdf type=\"{}\"><float name=\"transmittance\" value=\"0.5\"/></bsdf>", type));
+        const Material& m = found.parts.at(0).second;
+        EXPECT_EQ(m.albedo, glm::vec3(0));
+        EXPECT_EQ(m.alphaMode, AlphaMode::Blend);
+        EXPECT_EQ(m.opacity, 1 - kept) << type;
+        EXPECT_THAT(found.forgiven, Contains(HasSubstr("lets as much light through")));
+    }
+}
+
 TEST(MitsubaReplacedBsdfs, UnknownOnesShowTheirFirstColor) {
     const Found cloth = partsOf("<bsdf type=\"irawan\"><float name=\"repeatU\" value=\"5\"/>"
                                 "<rgb name=\"kd\" value=\"0.5 0.25 0\"/><rgb name=\"ks\" "

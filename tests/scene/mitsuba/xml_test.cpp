@@ -149,6 +149,23 @@ TEST(MitsubaXml, SpectraAlikeEverywhereComeOutExactly) {
     }
 }
 
+/// Programs of Mitsuba 0.x that are built for many wavelengths list a number for each.
+TEST(MitsubaXml, SpectraMayBeListsOfNumbers) {
+    const auto colorOf = [](const std::string& spectrum) {
+        const std::string inside = rectangleOf("<bsdf type=\"diffuse\"><spectrum "
+                                               "name=\"reflectance\" value=\"" +
+                                               spectrum + "\"/></bsdf>");
+        EXPECT_EQ(problemInOld(inside), "");
+        const Scene scene = loadOld(inside);
+        return scene.materials.at(scene.triangles.at(0).material).albedo;
+    };
+    EXPECT_NEAR(colorOf("0.25, 0.25, 0.25, 0.25, 0.25").y, 0.25, 1e-4);
+    // Five parts of 94 nm from 360 nm on.
+    const glm::vec3 listed = colorOf("0.1 0.2 0.4 0.6 0.7");
+    const glm::vec3 pairs = colorOf("360:0.1 407:0.1 501:0.2 595:0.4 689:0.6 783:0.7 830:0.7");
+    EXPECT_LT(glm::distance(listed, pairs), 1e-6f);
+}
+
 /// Against the CIE 1931 curves at 700 and 546.1 nm: chromaticity (0.73469, 0.26531) and
 /// (0.27377, 0.71741).
 TEST(MitsubaXml, NarrowSpectraHaveTheirHue) {
