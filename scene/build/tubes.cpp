@@ -29,9 +29,14 @@ double mitred(double radius, const glm::dvec3& normal, const Strand& strand, siz
 
 } // namespace
 
-void addTube(Mesh& mesh, const Strand& strand) {
-    constexpr double kTurn = 2 * std::numbers::pi / kTubeSides;
-    const double wider = kTurn / 2 / std::sin(kTurn / 2); // the outline is a circle's
+TubeDetail tubeDetail(size_t points) {
+    if (points <= kMostDetailedPoints) return {};
+    return {3, 0.5};
+}
+
+void addTube(Mesh& mesh, const Strand& strand, uint32_t sides) {
+    const double turn = 2 * std::numbers::pi / sides;
+    const double wider = turn / 2 / std::sin(turn / 2); // the outline is a circle's
     const auto first = uint32_t(mesh.positions.size());
     glm::dvec3 x(0.0);
     for (size_t i = 0; i < strand.size(); ++i) {
@@ -41,20 +46,20 @@ void addTube(Mesh& mesh, const Strand& strand) {
         // Turned as little as may be from the ring before.
         x = unit(x - along * glm::dot(along, x)).value_or(glm::normalize(glm::cross(along, other)));
         const glm::dvec3 y = glm::cross(along, x);
-        for (uint32_t side = 0; side < kTubeSides; ++side) {
-            const glm::dvec3 normal = x * std::cos(kTurn * side) + y * std::sin(kTurn * side);
+        for (uint32_t side = 0; side < sides; ++side) {
+            const glm::dvec3 normal = x * std::cos(turn * side) + y * std::sin(turn * side);
             const double radius = mitred(wider * strand[i].radius, normal, strand, i);
             mesh.positions.push_back(strand[i].place + radius * normal);
             mesh.normals.push_back(normal);
-            mesh.attributes.emplace_back().uv[0] = {float(side) / float(kTubeSides),
+            mesh.attributes.emplace_back().uv[0] = {float(side) / float(sides),
                                                     float(i) / float(strand.size() - 1)};
         }
     }
     MeshPart& part = mesh.parts.front();
     for (uint32_t ring = 0; ring + 1 < strand.size(); ++ring)
-        for (uint32_t side = 0; side < kTubeSides; ++side) {
+        for (uint32_t side = 0; side < sides; ++side) {
             const auto corner = [&](uint32_t up, uint32_t around) {
-                const uint32_t n = first + (ring + up) * kTubeSides + around % kTubeSides;
+                const uint32_t n = first + (ring + up) * sides + around % sides;
                 return Corner{n, n, n};
             };
             part.push_back({corner(0, side), corner(0, side + 1), corner(1, side + 1)});

@@ -18,7 +18,6 @@ namespace stromboli::mitsuba {
 namespace {
 
 using build::Knot;
-using build::kTubeSides;
 using build::Strand;
 
 /// After a head and the number of knots, three floats each; before the first one of a strand there
@@ -81,13 +80,29 @@ Strand straightened(const Strand& strand, double degrees) {
     return kept;
 }
 
+/// Lines that stand for a segment of a uniform cubic B-spline: by its second derivative, which is
+/// largest at an end.
+int stepsOf(const Strand& knots, size_t i, double tolerance) {
+    constexpr int kMostSteps = 6;
+    double bend = 0, width = 0;
+    for (size_t k = i; k < i + 2; ++k) {
+        const glm::dvec3 second = knots[k].place - 2.0 * knots[k + 1].place + knots[k + 2].place;
+        const double swelling =
+            std::abs(knots[k].radius - 2 * knots[k + 1].radius + knots[k + 2].radius);
+        bend = std::max({bend, glm::length(second), swelling});
+        width = std::max(width, 2 * knots[k + 1].radius);
+    }
+    const double steps = std::ceil(std::sqrt(bend / (8 * std::max(tolerance * width, 1e-30))));
+    return int(std::clamp(std::isnan(steps) ? 1.0 : steps, 1.0, double(kMostSteps)));
+}
+
 /// Points of the uniform cubic B-spline that the knots control.
-Strand splined(const Strand& knots) {
-    constexpr int kSteps = 6;
+Strand splined(const Strand& knots, double tolerance) {
     Strand points;
-    for (size_t i = 0; i + 3 < knots.size(); ++i)
-        for (int step = i == 0 ? 0 : 1; step <= kSteps; ++step) {
-            const double t = double(step) / kSteps, u = 1 - t;
+    for (size_t i = 0; i + 3 < knots.size(); ++i) {
+        const int steps = stepsOf(knots, i, tolerance);
+        for (int step = i == 0 ? 0 : 1; step <= steps; ++step) {
+            const double t = double(step) / steps, u = 1 - t;
             const double weights[4] = {u * u * u / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
                                        (3 * u * u * u - 6 * u * u + 4) / 6, t * t * t / 6};
             Knot& point = points.emplace_back();
@@ -96,6 +111,7 @@ Strand splined(const Strand& knots) {
                 point.radius += weights[k] * knots[i + k].radius;
             }
         }
+    }
     return points;
 }
 
@@ -114,17 +130,23 @@ build::Mesh hairMesh(const Context& context, const Plugin& shape) {
     constexpr std::string_view kHead = "BINARY_HAIR";
     const size_t head = kHead.size() + sizeof(uint32_t);
     const bool isBinary = bytes.starts_with(kHead) && bytes.size() >= head;
-    build::requireMemory(where.file, bytes.size() * 20 * kTubeSides);
     const std::vector<Strand> strands =
         isBinary ? binaryStrands(std::string_view(bytes).substr(head), radius)
                  : textStrands(where, bytes, radius);
+    size_t points = 0;
+    for (const Strand& strand : strands)
+        points += strand.size();
+    const build::TubeDetail detail = build::tubeDetail(points);
+    if (points > build::kMostDetailedPoints)
+        context.report().assume("hair of so many strands has tubes of three sides");
+    build::requireMemory(where.file, bytes.size() * 20 * detail.sides);
     build::Mesh mesh;
     mesh.parts.emplace_back();
     for (const Strand& strand : strands) {
-        const Strand line = shape.type == "bsplinecurve" ? splined(strand)
+        const Strand line = shape.type == "bsplinecurve" ? splined(strand, detail.tolerance)
                             : shape.type == "hair"       ? straightened(strand, angle)
                                                          : straightened(strand, 0);
-        if (line.size() > 1) build::addTube(mesh, line);
+        if (line.size() > 1) build::addTube(mesh, line, detail.sides);
     }
     if (mesh.positions.empty()) where.fail("has no strand of two points or more");
     return mesh;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/build/scene_builder.hpp"
+#include "scene/build/tubes.hpp"
 #include "scene/pbrt/files.hpp"
 #include "scene/pbrt/version.hpp"
 
@@ -13,6 +14,7 @@ struct Context {
     Version version = Version::V4;
     /// What the film makes of light; all light of the scene is multiplied by it.
     double imagingRatio = 1;
+    build::TubeDetail tubes; ///< of curves
 
     build::Report& report() const { return builder.report(); }
     bool isV3() const { return version == Version::V3; }

@@ -206,7 +206,7 @@ Form formOf(Context& context, const std::string& kind, const Parameters& shape) 
     if (std::optional<Form> form = revolvedForm(kind, shape)) return *std::move(form);
     if (kind == "bilinearmesh") return bilinearMesh(shape);
     if (kind == "loopsubdiv") return subdividedForm(shape);
-    if (kind == "curve") return curveForm(shape);
+    if (kind == "curve") return curveForm(context, shape);
     if (kind == "heightfield") return heightField(shape);
     if (kind == "nurbs") return nurbsForm(shape);
     shape.place().fail(fmt::format(

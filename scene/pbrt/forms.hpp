@@ -38,7 +38,7 @@ Form subdividedForm(const Parameters& shape);
 /// A grid over a NURBS patch.
 Form nurbsForm(const Parameters& shape);
 /// A tube along a curve.
-Form curveForm(const Parameters& shape);
+Form curveForm(const Context& context, const Parameters& shape);
 
 /// Triangles of a list of corners; those with corners that are not there are left out.
 void addTriangles(const Parameters& shape, const std::vector<double>& indices, build::Mesh& mesh);

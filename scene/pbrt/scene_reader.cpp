@@ -20,7 +20,21 @@ build::Shortfall shortfallOf(std::string_view directive) {
 
 } // namespace
 
+/// The points that control all curves.
+static size_t pointsOfCurves(const std::vector<Statement>& statements) {
+    size_t numbers = 0;
+    for (const Statement& s : statements)
+        if (s.directive() == "Shape" && s.words.front() == "curve")
+            for (const Parameter& p : s.parameters)
+                if (p.name == "P") numbers += p.numbers.size();
+    return numbers / 3;
+}
+
 void SceneReader::read(std::vector<Statement> statements) {
+    const size_t points = pointsOfCurves(statements);
+    context_.tubes = build::tubeDetail(points);
+    if (points > build::kMostDetailedPoints)
+        context_.report().assume("hair of so many curves has tubes of three sides");
     state_.material = materialOf(context_.isV3() ? "matte" : "diffuse",
                                  Parameters(Statement{}, context_.report()));
     for (const Statement& statement : statements)

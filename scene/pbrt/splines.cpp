@@ -15,8 +15,8 @@
 namespace stromboli::pbrt {
 namespace {
 
-/// Lines that stand for a segment of a curve: so many that they are off by a tenth of its width.
-int stepsOf(std::span<const glm::dvec3> controls, double width) {
+/// Lines that stand for a segment of a curve: so many that they are off by `most` or less.
+int stepsOf(std::span<const glm::dvec3> controls, double most) {
     constexpr int kMostSteps = 16;
     const glm::dvec3 first = controls.front(), chord = controls.back() - first;
     const double squared = glm::dot(chord, chord);
@@ -26,7 +26,7 @@ int stepsOf(std::span<const glm::dvec3> controls, double width) {
             squared > 0 ? std::clamp(glm::dot(p - first, chord) / squared, 0.0, 1.0) : 0;
         away = std::max(away, glm::length(p - first - along * chord));
     }
-    const double steps = std::ceil(std::sqrt(away / std::max(0.1 * width, 1e-30)));
+    const double steps = std::ceil(std::sqrt(away / std::max(most, 1e-30)));
     return int(std::clamp(std::isnan(steps) ? 1.0 : steps, 1.0, double(kMostSteps)));
 }
 
@@ -91,7 +91,7 @@ NurbsAxis axisOf(const Parameters& shape, const std::string& letter) {
 
 } // namespace
 
-Form curveForm(const Parameters& shape) {
+Form curveForm(const Context& context, const Parameters& shape) {
     const std::vector<glm::dvec3> points = shape.points("P");
     const int64_t degree = std::clamp<int64_t>(shape.integer("degree").value_or(3), 2, 3);
     const bool isBSpline = shape.text("basis").value_or("bezier") == "bspline";
@@ -109,7 +109,7 @@ Form curveForm(const Parameters& shape) {
     build::Strand strand;
     for (size_t segment = 0; segment < segments; ++segment) {
         const std::span controls = std::span(points).subspan(segment * step, order);
-        const int steps = stepsOf(controls, std::max(from, to));
+        const int steps = stepsOf(controls, context.tubes.tolerance * std::max(from, to));
         for (int i = segment == 0 ? 0 : 1; i <= steps; ++i) {
             const double t = double(i) / steps;
             const glm::dvec3 at =
@@ -123,7 +123,7 @@ Form curveForm(const Parameters& shape) {
     Form form;
     form.hasCoordinates = true;
     form.mesh.parts.emplace_back();
-    build::addTube(form.mesh, strand);
+    build::addTube(form.mesh, strand, context.tubes.sides);
     return form;
 }
 

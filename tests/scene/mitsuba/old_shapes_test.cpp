@@ -1,5 +1,6 @@
 // Shapes of Mitsuba 0.x, and what they have of old.
 
+#include "scene/build/tubes.hpp"
 #include "scene/mitsuba/smooth_normals.hpp"
 #include "scene/mitsuba/solids.hpp"
 #include "scene/model/srgb.hpp"
@@ -85,6 +86,27 @@ TEST(MitsubaHair, CurvesHaveRadii) {
     const Scene spline = loadFile("bsplinecurve", "curve.txt", "", "3.0.0");
     EXPECT_NEAR(spline.bounds().lo.z, 1, 1e-6); // of evenly spaced knots: from the second
     EXPECT_NEAR(spline.bounds().hi.z, 2, 1e-6); // to the last but one
+}
+
+/// As many lines stand for a segment as it takes to be off by a tenth of the width: one where it is
+/// straight; six where it bends by far more than its width.
+TEST(MitsubaHair, CurvesHaveLinesWhereTheyBend) {
+    writeFile("straight_curve.txt", "0 0 0 0.01\n0 0 1 0.01\n0 0 2 0.01\n0 0 3 0.01\n");
+    EXPECT_EQ(loadFile("bsplinecurve", "straight_curve.txt", "", "3.0.0").triangles.size(), 12u);
+    writeFile("bent_curve.txt", "0 0 0 0.01\n0 0 1 0.01\n0 1 1 0.01\n0 1 0 0.01\n");
+    EXPECT_EQ(loadFile("bsplinecurve", "bent_curve.txt", "", "3.0.0").triangles.size(), 6 * 12u);
+}
+
+/// Six sides of millions of segments would take gigabytes; three are as wide in the mean.
+TEST(MitsubaHair, OfManyPointsHasThreeSides) {
+    std::string text;
+    constexpr size_t kPoints = build::kMostDetailedPoints + 1;
+    for (size_t i = 0; i < kPoints; ++i)
+        text += fmt::format("{} {} 0 0.01\n", i % 2, i);
+    writeFile("many.txt", text);
+    const Scene scene = loadFile("linearcurve", "many.txt", "", "3.0.0");
+    EXPECT_EQ(scene.triangles.size(), (kPoints - 1) * 6);
+    EXPECT_THAT(scene.report.assumed, testing::Contains(testing::HasSubstr("three sides")));
 }
 
 TEST(MitsubaHair, WrongFilesSayWhy) {

@@ -1,5 +1,6 @@
 // Shapes: their areas, sides and coordinates; objects and what is shared of them.
 
+#include "scene/build/tubes.hpp"
 #include "tests/scene/pbrt/pbrt_text.hpp"
 
 #include <fmt/format.h>
@@ -178,6 +179,20 @@ TEST(PbrtCurves, AreTubes) {
     EXPECT_EQ(loadV4("Shape \"curve\" " + points + " Translate 0 0 1 Shape \"curve\" " + points)
                   .instances.size(),
               2u);
+}
+
+/// Six sides of millions of curves would take gigabytes; three are as wide in the mean.
+TEST(PbrtCurves, OfManyPointsHaveThreeSides) {
+    const std::string curve =
+        "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" .2\n";
+    constexpr size_t kCurves = build::kMostDetailedPoints / 4 + 1;
+    std::string all;
+    for (size_t i = 0; i < kCurves; ++i)
+        all += curve;
+    const Scene scene = loadV4(all);
+    EXPECT_EQ(scene.triangles.size(), kCurves * 6);
+    EXPECT_NEAR(areaOf(scene), double(kCurves) * 2 * pi * 0.1 * 3, double(kCurves) * 0.02);
+    EXPECT_THAT(scene.report.assumed, testing::Contains(testing::HasSubstr("three sides")));
 }
 
 TEST(PbrtOldShapes, AreGrids) {
