@@ -9,6 +9,7 @@
 #include "scene/mitsuba/hair.hpp"
 #include "scene/mitsuba/heightfield.hpp"
 #include "scene/mitsuba/obj_materials.hpp"
+#include "scene/mitsuba/sdf_grid.hpp"
 #include "scene/mitsuba/serialized.hpp"
 #include "scene/mitsuba/smooth_normals.hpp"
 #include "scene/mitsuba/solids.hpp"
@@ -170,6 +171,7 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
     if (shape.type == "disk") return diskMesh();
     if (isHair(shape)) return hairMesh(context_, shape);
     if (shape.type == "heightfield") return heightfieldMesh(context_, shape);
+    if (shape.type == "sdfgrid") return sdfGridMesh(context_, shape);
     if (shape.type == "cylinder") {
         const glm::dvec3 from = shape.vector("p0").value_or(glm::dvec3(0));
         const glm::dvec3 to = shape.vector("p1").value_or(glm::dvec3(0, 0, 1));
@@ -179,7 +181,8 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
     }
     shape.fail(fmt::format(
         "'{}' is no shape that is read, expected obj, ply, serialized, rectangle, cube, "
-        "sphere, disk, cylinder, hair, linearcurve, bsplinecurve, heightfield, shapegroup, "
+        "sphere, disk, cylinder, hair, linearcurve, bsplinecurve, heightfield, sdfgrid, "
+        "shapegroup, "
         "instance or merge",
         shape.type));
 }

@@ -6,6 +6,7 @@
 #include "scene/images/load_texture.hpp"
 #include "scene/images/texture_image.hpp"
 #include "scene/mitsuba/upgrade.hpp"
+#include "scene/mitsuba/volumes.hpp"
 
 #include <fmt/format.h>
 
@@ -170,7 +171,19 @@ std::optional<Shade> Textures::texture(const Plugin& texture, ColorOf what, Layo
     if (type == "mesh_attribute")
         return meshAttribute(texture, texture.requireText("name"), layout);
     if (type == "vertexcolors") return meshAttribute(texture, "vertex_color", layout);
+    if (type == "volume") return meanOfVolume(texture);
     return unknown(texture, what, layout);
+}
+
+/// A function of the place in space, where a grid says so: its mean.
+Shade Textures::meanOfVolume(const Plugin& plugin) {
+    const Plugin* inside = plugin.onlyChildOf("volume");
+    if (!inside) plugin.fail("has no volume inside, expected one");
+    const Volume volume = readVolume(context_, *inside);
+    plugin.requireAllRead();
+    if (volume.grid)
+        plugin.replace(build::Shortfall::Model, "is a function of the place in space", "its mean");
+    return Shade{volume.mean, {}, {}};
 }
 
 /// A texture without a counterpart: that inside of it, or a colour of it, is shown.

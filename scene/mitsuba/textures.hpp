@@ -73,6 +73,7 @@ class Textures {
         bool isColored = false; ///< one number stands for channels that differ (Mitsuba 0.x)
     };
     Read image(const Plugin& texture, bool raw, Layout layout, char channel);
+    Shade meanOfVolume(const Plugin& texture);
     Shade meshAttribute(const Plugin& texture, const std::string& name, Layout layout);
     glm::dvec3 colorNamed(const Plugin& pattern, const char* name, ColorOf what, double otherwise,
                           Layout layout);

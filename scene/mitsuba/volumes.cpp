@@ -49,8 +49,8 @@ float nextValue(Numbers& numbers, Encoding encoding) {
 }
 
 /// What is no number, or less than 0, is nothing.
-float usable(float value) {
-    return std::isfinite(value) && value > 0 ? value : 0;
+float usable(float value, bool keepsSigns = false) {
+    return std::isfinite(value) && (keepsSigns || value > 0) ? value : 0;
 }
 
 Volume readGrid(const Context& context, const Plugin& volume) {
@@ -99,7 +99,7 @@ Volume readVolume(const Context& context, const Plugin& volume) {
     return result;
 }
 
-VolumeFile parseVolume(std::string_view bytes, const std::string& name) {
+VolumeFile parseVolume(std::string_view bytes, const std::string& name, bool keepsSigns) {
     const auto fail = [&](const std::string& problem) { throw SceneError(name, 0, "", problem); };
     if (!bytes.starts_with("VOL\x03")) fail("is no volume of Mitsuba's version 3");
     Numbers numbers(bytes.substr(4), name);
@@ -129,11 +129,11 @@ VolumeFile parseVolume(std::string_view bytes, const std::string& name) {
     for (float& value : file.grid.values) {
         glm::vec3 color(0);
         for (int channel = 0; channel < channels; ++channel)
-            color[channel] = usable(nextValue(numbers, encoding));
+            color[channel] = usable(nextValue(numbers, encoding), keepsSigns);
         if (channels == 1) color = glm::vec3(color.x);
         if (file.colors) file.colors->values.push_back(color);
         file.mean += glm::dvec3(color) / double(count);
-        value = usable(color.x / 3 + color.y / 3 + color.z / 3);
+        value = usable(color.x / 3 + color.y / 3 + color.z / 3, keepsSigns);
         if (channels == 1) value = color.x;
     }
     return file;

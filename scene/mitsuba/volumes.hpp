@@ -31,7 +31,8 @@ struct VolumeFile {
     glm::dvec3 mean{0.0}; ///< by channel
 };
 
-/// Mitsuba's format of volumes (version 3). Throws SceneError with `name`.
-VolumeFile parseVolume(std::string_view bytes, const std::string& name);
+/// Mitsuba's format of volumes (version 3). Values below 0 become 0 unless they have a meaning.
+/// Throws SceneError with `name`.
+VolumeFile parseVolume(std::string_view bytes, const std::string& name, bool keepsSigns = false);
 
 } // namespace stromboli::mitsuba

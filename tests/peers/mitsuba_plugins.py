@@ -148,6 +148,7 @@ def shapes():
     yield "rectangle", shape("rectangle", world('<rotate x="1" angle="-20"/><translate y="1"/>') + textured)
     ends = '<point name="p0" x="-1" y="0.6" z="0"/><point name="p1" x="1" y="1.2" z="0.3"/>'
     yield "cylinder", shape("cylinder", ends + num("radius", 0.5) + textured)
+    yield "sdfgrid", shape("sdfgrid", word("filename", "distances.vol") + world('<translate x="-0.5" y="0.5" z="-0.5"/><scale value="1.5"/>') + RED)
     yield "sphere", ball(textured, world('<rotate x="1" angle="40"/>'))
     group = '<shape type="shapegroup" id="g">' + shape("sphere", num("radius", 0.5) + RED) + "</shape>"
     placed = '<shape type="instance"><ref id="g"/>' + world('<scale x="2" y="1" z="1"/><translate y="0.7"/>') + "</shape>"
@@ -200,6 +201,8 @@ def write_files():
     sky[4:6, 8:11] = 20
     mi.Bitmap(sky).write("sky.exr")
     mi.VolumeGrid(random.random((8, 8, 8), dtype=np.float32)).write("grid.vol")
+    z, y, x = np.mgrid[:32, :32, :32] / 31 - 0.5
+    mi.VolumeGrid((np.sqrt(x * x + y * y + z * z) - 0.4).astype(np.float32)).write("distances.vol")
 
 
 def blocks(picture_):

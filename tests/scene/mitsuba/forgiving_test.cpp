@@ -226,6 +226,12 @@ TEST(MitsubaForgives, PicturesAsNumbers) {
                         "</texture></bsdf>"),
                  "'color0' is a texture", "its mean");
     EXPECT_NEAR(build::colorAt(squares.images.at(1), 0, false).x, 0.3, 1e-3);
+    const Scene volume = loadInside(
+        ballOf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"volume\"><volume "
+               "type=\"constvolume\"><rgb name=\"value\" value=\"0.25 0.5 0.75\"/></volume>"
+               "</texture></bsdf>"));
+    EXPECT_THAT(volume.report.forgiven, IsEmpty());
+    EXPECT_EQ(volume.materials.at(0).albedo, glm::vec3(0.25, 0.5, 0.75));
 }
 
 TEST(MitsubaForgives, Media) {

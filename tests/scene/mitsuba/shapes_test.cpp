@@ -43,6 +43,62 @@ TEST(MitsubaShapes, HaveTheirAreas) {
     EXPECT_EQ(loadShape("sphere").triangles.size(), 0u);
 }
 
+/// Distances from a ball of radius 0.3 at (0.4, 0.5, 0.6), for 20 x 25 x 30 places of the unit
+/// cube.
+std::string distancesFromBall(double radius) {
+    std::string bytes = "VOL\x03";
+    const auto add = [&](auto value) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    add(int32_t(1));
+    const glm::ivec3 size(20, 25, 30);
+    for (const int axis : {0, 1, 2})
+        add(int32_t(size[axis]));
+    add(int32_t(1));
+    for (const float corner : {0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f})
+        add(corner);
+    for (int z = 0; z < size.z; ++z)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                const glm::dvec3 place = glm::dvec3(x, y, z) / glm::dvec3(size - 1);
+                add(float(glm::distance(place, {0.4, 0.5, 0.6}) - radius));
+            }
+    return bytes;
+}
+
+TEST(MitsubaShapes, GridsOfDistancesHaveASurface) {
+    const std::string file = writeFile("ball.vol", distancesFromBall(0.3)).filename().string();
+    const std::string named = "<string name=\"filename\" value=\"" + file + "\"/>";
+    const Scene scene = loadShape("sdfgrid", named);
+    EXPECT_TRUE(scene.report.forgiven.empty());
+    const double area = 4 * std::numbers::pi * 0.3 * 0.3;
+    EXPECT_NEAR(areaOfShape(scene), area, 0.02 * area);
+    const glm::dvec3 middle(0.4, 0.5, 0.6);
+    glm::dvec3 sum(0.0);
+    // A line between two distances is off by the square of its length / (8 radius).
+    const double most = (1 / (19.0 * 19) + 1 / (24.0 * 24) + 1 / (29.0 * 29)) / (8 * 0.3);
+    double flux = 0; // of the place, whose divergence is 3
+    for (const Triangle& t : scene.triangles) {
+        glm::dvec3 corners[3];
+        for (size_t i = 0; i < 3; ++i) {
+            corners[i] = glm::dvec3(scene.positions[t.corner[i]]) + scene.origin - middle;
+            EXPECT_NEAR(glm::length(corners[i]), 0.3, most);
+        }
+        const glm::dvec3 outwards =
+            glm::cross(corners[1] - corners[0], corners[2] - corners[0]) / 2.0;
+        sum += outwards;
+        flux += glm::dot(outwards, corners[0]);
+    }
+    EXPECT_LT(glm::length(sum), 1e-5); // it is closed
+    EXPECT_NEAR(flux / 3, 0.3 * area / 3, 0.02 * area);
+    ASSERT_FALSE(scene.normals.empty());
+    EXPECT_THAT(problemInside(rectangleOf("") +
+                              "<shape type=\"sdfgrid\"><string name=\"filename\" value=\"" +
+                              writeFile("none.vol", distancesFromBall(-1)).filename().string() +
+                              "\"/></shape>"),
+                HasSubstr("there is no surface"));
+}
+
 TEST(MitsubaShapes, FaceOutwards) {
     for (const char* type : {"cube", "sphere", "cylinder"}) {
         const Scene scene = loadShape(type, "<transform name=\"to_world\">"
