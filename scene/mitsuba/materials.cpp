@@ -1,6 +1,7 @@
 #include "scene/mitsuba/materials.hpp"
 
 #include "scene/build/tolerate.hpp"
+#include "scene/mitsuba/nested_bsdfs.hpp"
 
 #include <fmt/format.h>
 
@@ -51,7 +52,10 @@ Surface Materials::make(const Plugin& shape, const Plugin* bsdf, const Plugin* e
         surface.material.alphaMode = AlphaMode::Blend;
         surface.material.opacity = 0;
     }
-    if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
+    if (bsdf) {
+        surface = readBsdf(context_, textures_, *bsdf);
+        addBackOfRelief(*bsdf, surface);
+    }
     settleColors(surface);
     surround(surface, sidesOf(shape));
     if (emitter)

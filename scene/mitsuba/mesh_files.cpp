@@ -1,6 +1,7 @@
 #include "scene/mitsuba/mesh_files.hpp"
 
 #include "scene/build/mesh_of_scene.hpp"
+#include "scene/build/read_file.hpp"
 #include "scene/mitsuba/obj_materials.hpp"
 #include "scene/obj/load_obj.hpp"
 #include "scene/ply/load_ply.hpp"
@@ -42,6 +43,14 @@ SceneConventions conventionsOf(const Context& context) {
 }
 
 } // namespace
+
+bool statesNormals(const std::filesystem::path& file) {
+    const std::string bytes = build::readFile(file);
+    const std::string_view text = bytes;
+    if (!text.starts_with("ply")) return text.starts_with("vn ") || text.find("\nvn ") != text.npos;
+    const std::string_view head = text.substr(0, text.find("end_header"));
+    return head.find(" nx") != head.npos;
+}
 
 FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook,
                      const Plugin& shape) {

@@ -25,6 +25,10 @@ struct FileMesh {
     std::vector<uint32_t> materials; ///< of each triangle, into those of the look
 };
 
+/// Whether an OBJ or PLY file states normals, be they those of its triangles, which readers leave
+/// out.
+bool statesNormals(const std::filesystem::path& file);
+
 /// wantsLook: the file's materials are asked for, by a shape that may have bsdfs in their place.
 FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook,
                      const Plugin& shape);

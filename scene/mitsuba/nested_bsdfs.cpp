@@ -32,6 +32,15 @@ bool hasRelief(const Surface& surface) {
     return false;
 }
 
+/// Mitsuba turns directions behind a surface to its front by their cosine alone: from there a
+/// relief is seen in a mirror, and what stands out does so on both sides.
+void mirrorRelief(Surface& surface) {
+    for (Surface* each = &surface; each; each = each->other.get())
+        for (TextureUse& use : each->material.textures)
+            if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::Height)
+                use.scale = -use.scale;
+}
+
 /// A surface with another one behind. What is a mixture takes the place of what is none.
 Surface withBack(const Plugin& plugin, Surface front, Surface back) {
     std::string problem;
@@ -43,6 +52,7 @@ Surface withBack(const Plugin& plugin, Surface front, Surface back) {
         plugin.replace(build::Shortfall::Model, problem, "the front on both sides");
         return front;
     }
+    mirrorRelief(back);
     OtherPlace place = OtherPlace::Behind;
     if (front.other) {
         std::swap(front, back);
@@ -196,6 +206,22 @@ Surface twoSided(Context& context, Textures& textures, const Plugin& plugin) {
     for (Surface* each = &surface; each; each = each->other.get())
         each->material.isBlackBehind = false;
     return surface;
+}
+
+void addBackOfRelief(const Plugin& plugin, Surface& surface) {
+    const std::vector<const Plugin*> inside = plugin.childrenOf("bsdf");
+    if (plugin.type == "mask" && !inside.empty()) return addBackOfRelief(*inside.front(), surface);
+    if (plugin.type != "twosided" || surface.other || !hasRelief(surface)) return;
+    // Of both the first one says how often something is there.
+    Surface back = surface;
+    back.material.alphaMode = AlphaMode::Opaque;
+    back.material.opacity = 1;
+    std::erase_if(back.material.textures,
+                  [](const TextureUse& use) { return use.slot == TextureSlot::Opacity; });
+    mirrorRelief(back);
+    surface.material.otherPlace = OtherPlace::Behind;
+    surface.material.otherShare = 1;
+    surface.other = std::make_shared<Surface>(std::move(back));
 }
 
 Surface mask(Context& context, Textures& textures, const Plugin& plugin) {

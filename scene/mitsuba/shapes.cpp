@@ -87,6 +87,18 @@ std::vector<Shapes::Part> Shapes::instance(const Plugin& shape) {
     return parts;
 }
 
+/// In Mitsuba 3 what a transform mirrors is turned inside out where its normals come from its
+/// corners or, of a sphere, from its parameters: those of a file are mirrored with it.
+bool Shapes::isInsideOut(const Plugin& shape) {
+    if (shape.isOld || !(glm::determinant(glm::dmat3(shape.transform("to_world"))) < 0))
+        return false;
+    if (shape.type == "sphere") return true;
+    if (!isFile(shape)) return false;
+    if (shape.flag("face_normals").value_or(false)) return true;
+    if (shape.type == "serialized") return read(shape, "").mesh.normals.empty();
+    return !statesNormals(context_.document.file(shape, "filename"));
+}
+
 Shapes::Part Shapes::single(const Plugin& shape) {
     if (usesOwnMaterials(shape)) return withOwnMaterials(shape);
     for (const char* unused : {"load_materials", "collapse", "srgb"})
@@ -103,7 +115,8 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     Part part{&shape, {}, shape.transform("to_world"), {material.number}};
     const bool isSphere = shape.type == "sphere";
     if (isSphere) part.toWorld *= sphereMatrix(shape);
-    const bool flips = shape.flag("flip_normals").value_or(false);
+    bool flips = shape.flag("flip_normals").value_or(false);
+    if (isInsideOut(shape)) flips = !flips;
     const bool staysSphere =
         isSphere && !flips && !material.wantsCoordinates() && build::isSimilarity(part.toWorld);
     if (staysSphere) {

@@ -35,6 +35,7 @@ class Shapes {
     const std::vector<Part>& group(const Plugin& group);
     std::vector<Part> instance(const Plugin& shape);
     Part single(const Plugin& shape);
+    bool isInsideOut(const Plugin& shape);
     Part withOwnMaterials(const Plugin& shape);
     build::Mesh meshOf(const Plugin& shape, const BoundMaterial& material);
     build::Mesh solidOf(const Plugin& shape);
