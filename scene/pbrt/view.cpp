@@ -82,8 +82,11 @@ void View::readSensor(const Parameters& film) {
     if (sensor != "cie1931")
         film.replace(build::Shortfall::Model, fmt::format("has the sensor '{}'", sensor),
                      "the sensor cie1931");
-    if (film.number("whitebalance").value_or(0) != 0)
-        context_.report().ignore("'whitebalance' of the film", "colours stay as they are");
+    if (const double kelvins = film.number("whitebalance").value_or(0); kelvins != 0)
+        context_.report().ignore(
+            "'whitebalance' of the film",
+            fmt::format("colours stay as they are (--white-balance {:.0f} makes such light white)",
+                        kelvins));
 }
 
 void View::readFilter(const std::string& kind, const Parameters& filter) {

@@ -177,6 +177,12 @@ TEST(PbrtFilm, SaysHowBrightLightIs) {
                     3);
 }
 
+TEST(PbrtFilm, SaysWhichOptionBalancesColors) {
+    const Scene scene =
+        loadText(std::string("Film \"rgb\" \"float whitebalance\" 5000 WorldBegin ") + kTriangle);
+    EXPECT_THAT(scene.report.ignored, testing::Contains(HasSubstr("--white-balance 5000")));
+}
+
 TEST(PbrtFilter, OfEachVersionHasItsDefault) {
     EXPECT_EQ(hintsOf("Film \"image\"").filter, HintedFilter::Box);
     const RenderHints v4 = hintsOf("Film \"rgb\"");
