@@ -157,7 +157,7 @@ build::Mesh Shapes::meshOf(const Plugin& shape, const BoundMaterial& material) {
     usableAttribute(shape, material.cornerColors);
     build::Mesh mesh = solidOf(shape);
     if (material.isPainted) spreadCorners(mesh);
-    fitTo(material, mesh);
+    fitTo(shape, material, mesh);
     return mesh;
 }
 
@@ -234,16 +234,17 @@ void Shapes::finish(const Plugin& shape, const FileMesh& file, const BoundMateri
         smoothUpTo(mesh, *angle);
     else if (mesh.normals.empty())
         build::computeNormals(mesh);
-    fitTo(material, mesh);
+    fitTo(shape, material, mesh);
 }
 
 /// Corners have attributes only where something looks at them.
-void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
+void Shapes::fitTo(const Plugin& shape, const BoundMaterial& material, build::Mesh& mesh) {
     if (material.wantsTangents) {
         build::computeTangents(mesh, 0, 0);
-        // Mitsuba's frames are right-handed, whichever way v grows.
+        // Mitsuba's frames are right-handed, whichever way v grows, and whatever is mirrored.
+        const bool isMirrored = glm::determinant(glm::dmat3(shape.transform("to_world"))) < 0;
         for (VertexAttributes& a : mesh.attributes)
-            if (a.tangent.w != 0) a.tangent.w = 1;
+            if (a.tangent.w != 0) a.tangent.w = isMirrored ? -1 : 1;
     }
     if (material.wantsCoordinates() || material.isPainted || !material.cornerColors.empty()) return;
     mesh.attributes.clear();

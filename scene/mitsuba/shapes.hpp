@@ -43,7 +43,7 @@ class Shapes {
     void finish(const Plugin& shape, const FileMesh& file, const BoundMaterial& material,
                 build::Mesh& mesh);
     const std::string& usableAttribute(const Plugin& shape, const std::string& attribute);
-    static void fitTo(const BoundMaterial& material, build::Mesh& mesh);
+    static void fitTo(const Plugin& shape, const BoundMaterial& material, build::Mesh& mesh);
     /// The shape's file, whose corners have colours by that attribute; empty: they may have none.
     const FileMesh& read(const Plugin& shape, const std::string& attribute);
 

@@ -55,6 +55,18 @@ TEST(MitsubaSides, MirroredSpheresAreInsideOut) {
     EXPECT_EQ(loadInside(shapeOf("sphere", std::string(kMirrored) + kFlipped)).spheres.size(), 1u);
 }
 
+/// Mitsuba finds the bitangent as normal x tangent, mirrored or not.
+TEST(MitsubaSides, FramesOfNormalMapsAreRightHanded) {
+    const std::string normals = "<bsdf type=\"normalmap\"><texture name=\"normalmap\" "
+                                "type=\"checkerboard\"/><bsdf type=\"diffuse\"/></bsdf>";
+    for (const std::string transform : {"", kMirrored}) {
+        const Scene scene = loadInside(rectangleOf(normals + transform));
+        ASSERT_FALSE(scene.attributes.empty());
+        for (const VertexAttributes& a : scene.attributes)
+            EXPECT_EQ(a.tangent, glm::vec4(transform.empty() ? 1 : -1, 0, 0, 1));
+    }
+}
+
 /// The scales of the reliefs that a surface and its back have, by turns.
 std::vector<float> reliefsOf(const std::string& bsdf) {
     const Scene scene = loadInside(rectangleOf(bsdf));
