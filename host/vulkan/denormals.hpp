@@ -10,7 +10,7 @@ namespace stromboli::vulkan {
 ///
 /// Drivers of CPUs start the threads that run kernels while a device is opened. They run both sides
 /// of every branch, and so read small integers as floats, which are denormal: each such operation
-/// takes an Intel processor some 150 cycles. Nothing counts on denormals (docs/theory/numerics.md),
+/// takes an Intel processor some 150 cycles. Nothing counts on denormals (docs/hard_cases.md),
 /// and Vulkan lets a device have none.
 ///
 /// On x86-64 and AArch64; elsewhere it does nothing.

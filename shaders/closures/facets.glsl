@@ -38,11 +38,11 @@ float stretchedLength(vec3 w, vec2 alpha) { return length(vec3(alpha * w.xy, w.z
 /// of one does.
 float facetD(FacetShape f, vec3 h) {
     const vec2 slope = h.xy / f.alpha;
-    const float tan2 = dot(slope, slope), cos2 = h.z * h.z; // tan2: times cos2
-    float q = tan2 + cos2, shape = 1.0;
+    const float across2 = dot(slope, slope), cos2 = h.z * h.z; // the squared slope, over alpha, times cos2
+    float q = across2 + cos2, shape = 1.0;
     if (HAS_BECKMANN && (!HAS_GGX || f.isBeckmann)) {
         q = cos2;
-        shape = exp(-tan2 / cos2);
+        shape = exp(-across2 / cos2);
     }
     return shape / (PI * f.alpha.x * f.alpha.y * q * q);
 }
