@@ -57,7 +57,8 @@ void pause(PathState path, Job job, PathSlot slot) {
 void startWork(const Given given, inout PathState path, inout Stack stack, Job job, bool late) {
     if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(given, path);
     const bool mayBePutOff =
-        STOPS_BEFORE_ANY_RAY ? isTracing(path.phase) : path.phase == PHASE_PATH && !hasPassedSomething(path);
+        STOPS_BEFORE_ANY_RAY ? isTracing(path.phase)
+                             : path.phase == PHASE_PATH && !hasPassedSomething(path) && !isThroughGlass(path);
     if (late && mayBePutOff && !traversing(path.ray)) path.phase |= PHASE_SUSPENDED;
     startRay(path, stack);
 }

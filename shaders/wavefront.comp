@@ -133,10 +133,10 @@ void followStoredPath(const Given given, const Dispatch dispatch, bool isThere, 
         loadPath(slot, path, job, BY_FOLLOW);
         fetchPixelInHand(given.frame, path, job);
         const bool returns = branchIsOver(path);
-        const bool arrives = path.phase == PHASE_PATH || returns;
+        const bool arrives = path.phase == PHASE_PATH || returns || isThroughGlass(path);
         if (returns) loadPath(slot, path, job, AT_RETURN);
         // What has arrived sets up another surface; where the old one is needed late, it takes no registers before.
-        const bool needsSurfaceNow = DIRECT_LIGHT == DIRECT_HEMISPHERE;
+        const bool needsSurfaceNow = DIRECT_LIGHT == DIRECT_HEMISPHERE || LIGHT_THROUGH_GLASS;
         if (needsSurfaceNow && !arrives) loadPath(slot, path, job, AT_RESULT);
         bool isUnderWay = false;
         if (!returns) isUnderWay = goThroughMedium(given, path);
@@ -155,7 +155,7 @@ void followStoredPath(const Given given, const Dispatch dispatch, bool isThere, 
         }
         if (SEES) storeSeen(job.pixel, path.seen);
         storePath(slot, path, job, BY_FOLLOW);
-        if (arrives) storePath(slot, path, job, AT_ARRIVAL);
+        if (arrives || LIGHT_THROUGH_GLASS) storePath(slot, path, job, AT_ARRIVAL);
     }
     enqueue(QUEUE_LIT, isLit, slot);
     sendOn(isThere && !isLit, slot, path.phase, otherRayQueue(dispatch));

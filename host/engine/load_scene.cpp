@@ -5,6 +5,7 @@
 #include "host/core/system.hpp"
 #include "host/kernel/feelers.hpp"
 #include "host/kernel/find_portals.hpp"
+#include "host/kernel/glass_before_lights.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/model/default_light.hpp"
@@ -160,11 +161,15 @@ void fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                   const Estimator& estimator) {
     if (built.recordsOfRay == 0) built.recordsOfRay = recordsOfRay(built.bvh, camera);
     if (!built.lit && mayAimBounces(estimator)) built.lit = findLitCells(built);
+    built.glassBeforeLights =
+        mayLightThroughGlass(built, estimator) ? shareThroughGlass(scene, built, camera) : 0;
+    const bool looksThroughGlass = lightsThroughGlass(built, estimator);
     built.portals = {};
     if (!aimsAtPortals(built, estimator)) return;
     const std::shared_ptr<const EnvironmentTable>& sky = built.lights.environment;
     built.portals = scene.portals.empty()
-                        ? findPortals(built.bvh, camera, sky ? sky->unevenness : 1)
+                        ? findPortals(built.bvh, camera, sky ? sky->unevenness : 1,
+                                      looksThroughGlass ? clearGlassOf(built) : SeesThrough())
                         : statedPortals(scene.portals, camera);
 }
 

@@ -258,6 +258,8 @@ void Renderer::fitToPicture() {
         listener_.detail(fmt::format("light samples aim at {} {} that the sky is seen through{}",
                                      count, count == 1 ? "rectangle" : "rectangles",
                                      areStated ? "" : " (found: --portals off leaves them out)"));
+    if (lightsThroughGlass(scene, settings_.estimator))
+        listener_.detail("light samples go on where they meet clear glass");
     if (aimsBounces(scene, settings_.estimator))
         listener_.detail("some bounces aim at what lamps light from near by (--gap-proposal off "
                          "leaves that out)");

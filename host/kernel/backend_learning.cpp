@@ -1,6 +1,7 @@
 // How a backend learns where light samples to an environment arrive, before a picture begins.
 #include "host/core/random.hpp"
 #include "host/kernel/feelers.hpp"
+#include "host/kernel/glass_before_lights.hpp"
 #include "host/kernel/light_guide.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/sampling_session.hpp"
@@ -24,11 +25,12 @@ constexpr double kOpenShare = 0.3;
 bool seesSkyInPart(const GpuScene& scene, const Camera& camera) {
     constexpr uint32_t kSide = 20, kRays = 4;
     Random random(1);
-    const Feelers seen = lookAround(scene.bvh, camera, kSide);
-    const Feelers once = feelFrom(scene.bvh, seen, kRays, random);
+    const SeesThrough glass = scene.glassBeforeLights > 0 ? clearGlassOf(scene) : SeesThrough();
+    const Feelers seen = lookAround(scene.bvh, camera, kSide, glass);
+    const Feelers once = feelFrom(scene.bvh, seen, kRays, random, glass);
     const double free = shareOfFree(once).value_or(1);
     if (free > 0) return free <= kOpenShare;
-    return shareOfFree(feelFrom(scene.bvh, once, kRays, random)).value_or(0) > 0;
+    return shareOfFree(feelFrom(scene.bvh, once, kRays, random, glass)).value_or(0) > 0;
 }
 
 // --- Learning ------------------------------------------------------------------------------------

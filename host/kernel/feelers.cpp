@@ -1,6 +1,7 @@
 #include "host/kernel/feelers.hpp"
 
 #include "host/bvh/cpu_traversal.hpp"
+#include "host/kernel/lamp_light.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -9,10 +10,17 @@
 namespace stromboli {
 namespace {
 
-Feeler feel(const WideLayout& bvh, const TraversalRay& ray) {
+/// Surfaces that a feeler goes through at most.
+constexpr int kMostPanes = 16;
+
+Feeler feel(const WideLayout& bvh, TraversalRay ray, const SeesThrough& seesThrough) {
     Feeler f{ray.origin, ray.direction};
     TraversalCounts counts;
-    const TraversalHit hit = closestHit(bvh, ray, &counts);
+    TraversalHit hit = closestHit(bvh, ray, &counts);
+    for (int i = 0; i < kMostPanes && hit && seesThrough && seesThrough(hit.primitive); ++i) {
+        goThrough(bvh, ray, hit);
+        hit = closestHit(bvh, ray, &counts);
+    }
     f.visited = counts.nodes + counts.leaves;
     if (!hit) return f;
     f.isFree = false;
@@ -25,15 +33,18 @@ Feeler feel(const WideLayout& bvh, const TraversalRay& ray) {
     return f;
 }
 
-Feelers feelAll(const WideLayout& bvh, std::span<const TraversalRay> rays) {
+Feelers feelAll(const WideLayout& bvh, std::span<const TraversalRay> rays,
+                const SeesThrough& seesThrough) {
     Feelers felt(rays.size());
-    tbb::parallel_for(size_t(0), rays.size(), [&](size_t i) { felt[i] = feel(bvh, rays[i]); });
+    tbb::parallel_for(size_t(0), rays.size(),
+                      [&](size_t i) { felt[i] = feel(bvh, rays[i], seesThrough); });
     return felt;
 }
 
 } // namespace
 
-Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side) {
+Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side,
+                   const SeesThrough& seesThrough) {
     std::vector<TraversalRay> rays(size_t(side) * side);
     for (size_t i = 0; i < rays.size(); ++i) {
         const glm::dvec2 at((double(i % side) + 0.5) / side * 2 - 1,
@@ -44,13 +55,13 @@ Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side) {
         rays[i].direction =
             glm::normalize(camera.orthographic ? -camera.back : offset - camera.backOfMiddle());
     }
-    Feelers seen = feelAll(bvh, rays);
+    Feelers seen = feelAll(bvh, rays, seesThrough);
     std::erase_if(seen, [](const Feeler& f) { return f.isFree; });
     return seen;
 }
 
-Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t each,
-                 Random& random) {
+Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t each, Random& random,
+                 const SeesThrough& seesThrough) {
     std::vector<TraversalRay> rays;
     for (const Feeler& f : ended)
         for (size_t k = 0; k < each && !f.isFree; ++k) {
@@ -61,7 +72,7 @@ Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t ea
             if (glm::dot(ray.direction, side) < 0) ray.direction = -ray.direction;
             rays.push_back(ray);
         }
-    return feelAll(bvh, rays);
+    return feelAll(bvh, rays, seesThrough);
 }
 
 double recordsOfRay(const WideLayout& bvh, const Camera& camera) {

@@ -5,6 +5,7 @@
 #include "scene/camera/camera.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,11 +24,17 @@ struct Feeler {
 };
 using Feelers = std::vector<Feeler>;
 
+/// Whether a primitive, by its place in the tree, is what feelers go straight through; empty: none
+/// is.
+using SeesThrough = std::function<bool(uint32_t place)>;
+
 /// Rays through a grid of side x side points of the picture, without those that meet nothing.
-Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side);
+Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side,
+                   const SeesThrough& seesThrough = {});
 
 /// `each` rays, one after the other, from where each of these has ended.
-Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t each, Random& random);
+Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t each, Random& random,
+                 const SeesThrough& seesThrough = {});
 
 /// Records that a ray of a path visits on the way, on average, from the camera and after one and
 /// two bounces; 0: the camera sees nothing.

@@ -41,19 +41,22 @@ Feelers withoutOutside(const Feelers& feelers) {
 
 /// From what the camera sees, and from where these rays end; empty where the scene lies open or
 /// nothing sees the sky.
-Feelers feelRoom(const WideLayout& bvh, const Camera& camera) {
+Feelers feelRoom(const WideLayout& bvh, const Camera& camera, const SeesThrough& seesThrough) {
     constexpr uint32_t kSideFirst = 16, kSide = 32;
     constexpr double kOpen = 0.3;
     Random random(1);
     const auto opens = [&](const Feelers& f) { return shareOfFree(f).value_or(1) > kOpen; };
-    if (opens(feelFrom(bvh, lookAround(bvh, camera, kSideFirst), kRaysOfPoint, random))) return {};
-    const Feelers seen = lookAround(bvh, camera, kSide);
-    const Feelers once = feelFrom(bvh, seen, kRaysOfPoint, random);
+    if (opens(feelFrom(bvh, lookAround(bvh, camera, kSideFirst, seesThrough), kRaysOfPoint, random,
+                       seesThrough)))
+        return {};
+    const Feelers seen = lookAround(bvh, camera, kSide, seesThrough);
+    const Feelers once = feelFrom(bvh, seen, kRaysOfPoint, random, seesThrough);
     if (opens(once) || shareOfFree(once) <= 0.0) return {};
     Feelers all = withoutOutside(once);
     const size_t fromSeen = all.size();
     const auto add = [&](std::span<const Feeler> ended) {
-        const Feelers more = withoutOutside(feelFrom(bvh, ended, kRaysOfPoint, random));
+        const Feelers more =
+            withoutOutside(feelFrom(bvh, ended, kRaysOfPoint, random, seesThrough));
         all.insert(all.end(), more.begin(), more.end());
     };
     add(seen);
@@ -314,10 +317,11 @@ Portal portalOf(const Opening& o) {
 
 } // namespace
 
-Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness) {
+Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness,
+                    const SeesThrough& seesThrough) {
     constexpr double kLeastGain = 1.25;
     constexpr size_t kLeastFree = 64;
-    const Feelers feelers = feelRoom(bvh, camera);
+    const Feelers feelers = feelRoom(bvh, camera, seesThrough);
     Room room;
     std::ranges::copy_if(feelers, std::back_inserter(room.free), &Feeler::isFree);
     if (room.free.size() < kLeastFree) return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/feelers.hpp"
 #include "host/kernel/rows.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/portal.hpp"
@@ -23,7 +24,9 @@ struct Portals {
 /// small, or where the sky's light comes from less of it than they show. Found by rays
 /// (feelers.hpp), the same ones in every render. Portals put no bias on a picture, whatever they
 /// are, so that they need not be exact. unevenness: of the sky, as EnvironmentTable has it.
-Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness);
+/// seesThrough: the panes of windows, where light samples go through them.
+Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenness,
+                    const SeesThrough& seesThrough = {});
 
 /// Portals that were stated: as many as are used, turned to the side that the camera is on.
 Portals statedPortals(std::span<const Portal> portals, const Camera& camera);

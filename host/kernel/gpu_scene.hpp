@@ -28,7 +28,9 @@ struct GpuScene {
     LightTable lights;
     Portals portals; ///< of the picture to come; packScene() leaves it empty
     std::optional<LitCells>
-        lit;                  ///< where bounces aim; none: not looked for, as packScene() leaves it
+        lit; ///< where bounces aim; none: not looked for, as packScene() leaves it
+    double glassBeforeLights =
+        0; ///< shareThroughGlass() of the picture to come; packScene() leaves it 0
     double recordsOfRay = 0;  ///< recordsOfRay() of its first picture; packScene() leaves it 0
     SceneClosures closures;   ///< of the materials that primitives have
     bool hasEmission = false; ///< a primitive emits

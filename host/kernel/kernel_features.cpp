@@ -224,6 +224,17 @@ bool aimsBounces(const GpuScene& scene, const Estimator& settings) {
            !proposesGap(scene, settings);
 }
 
+bool mayLightThroughGlass(const GpuScene& scene, const Estimator& settings) {
+    return samplesLights(settings.directLight) && settings.integrator == Integrator::Path &&
+           settings.maxBounces > 1 && scene.media == 0 && scene.mostOthers == 0 &&
+           !scene.hasDispersion && (scene.closures.some & gpu::LOBE_DELTA_TRANSMISSION) != 0;
+}
+
+bool lightsThroughGlass(const GpuScene& scene, const Estimator& settings) {
+    constexpr double kLeastShare = 0.02;
+    return mayLightThroughGlass(scene, settings) && scene.glassBeforeLights >= kLeastShare;
+}
+
 bool guidesLight(const GpuScene& scene, const Estimator& settings) {
     return settings.guidesLight &&
            (lightKinds(scene, settings) & 1u << gpu::LIGHT_ENVIRONMENT) != 0;

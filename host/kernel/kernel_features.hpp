@@ -37,6 +37,11 @@ KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
 bool mayAimBounces(const Estimator& settings);
 /// Whether they go to the scene's lit cells.
 bool aimsBounces(const GpuScene& scene, const Estimator& settings);
+
+/// Whether rays of light samples go on where they meet clear glass, and whether they might if
+/// enough light came that way (GpuScene::glassBeforeLights).
+bool lightsThroughGlass(const GpuScene& scene, const Estimator& settings);
+bool mayLightThroughGlass(const GpuScene& scene, const Estimator& settings);
 /// Whether light samples of these settings go to an environment, and shall be guided.
 bool guidesLight(const GpuScene& scene, const Estimator& settings);
 /// Whether light samples of these settings go to the sky, and shall aim at the scene's portals.

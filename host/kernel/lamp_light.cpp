@@ -23,6 +23,14 @@ double meanOf(const glm::vec3& color) {
     return (double(color.x) + color.y + color.z) / 3;
 }
 
+/// A parallelogram or a sphere.
+bool hasSurface(const LightTable& lights, uint32_t light) {
+    const auto header =
+        structureAt<gpu::LightHeader>(lights.lights, size_t(gpu::LIGHT_ROWS) * light);
+    const uint32_t kind = header.kind & gpu::LIGHT_KIND_MASK;
+    return kind == gpu::LIGHT_QUAD || kind == gpu::LIGHT_SPHERE;
+}
+
 Lamp lampOfRows(const LightTable& lights, uint32_t light) {
     const size_t row = size_t(gpu::LIGHT_ROWS) * light;
     const auto header = structureAt<gpu::LightHeader>(lights.lights, row);
@@ -54,14 +62,6 @@ Lamp lampOfPrimitive(const WideLayout& bvh, uint32_t place, double radiance, boo
         lamp.power = radiance * 4 * std::numbers::pi * sphere.radius * sphere.radius;
     }
     return lamp;
-}
-
-/// Lets the ray go on behind what it has met.
-void goThrough(const WideLayout& bvh, TraversalRay& ray, const TraversalHit& hit) {
-    // A triangle is left out by its place, a sphere by the rounding of its distance.
-    const bool isTriangle = placedCorners(bvh, hit.primitive).has_value();
-    ray.tMin = isTriangle ? hit.t : hit.t * (1 + 0x1p-16f);
-    ray.skipPrimitive = isTriangle ? hit.primitive : gpu::NO_PRIMITIVE;
 }
 
 Landed landed(const GpuScene& scene, const TraversalRay& ray, const TraversalHit& hit) {
@@ -168,6 +168,13 @@ class GlassAboutLamps {
 
 } // namespace
 
+void goThrough(const WideLayout& bvh, TraversalRay& ray, const TraversalHit& hit) {
+    // A triangle is left out by its place, a sphere by the rounding of its distance.
+    const bool isTriangle = placedCorners(bvh, hit.primitive).has_value();
+    ray.tMin = isTriangle ? hit.t : hit.t * (1 + 0x1p-16f);
+    ray.skipPrimitive = isTriangle ? hit.primitive : gpu::NO_PRIMITIVE;
+}
+
 std::optional<PlacedCorners> placedCorners(const WideLayout& bvh, uint32_t place) {
     TraversalHit hit;
     hit.primitive = place;
@@ -193,19 +200,24 @@ Lamp lampAtPlace(const GpuScene& scene, uint32_t place) {
                            (m.closures & gpu::MATERIAL_EMITS_BOTH_SIDES) != 0);
 }
 
-std::vector<Lamp> lampsOf(const GpuScene& scene) {
+std::vector<Lamp> sampledLamps(const GpuScene& scene) {
     std::vector<Lamp> lamps;
-    const auto add = [&](const Lamp& lamp) {
-        if (lamp.power > 0) lamps.push_back(lamp);
-    };
     for (uint32_t i = 0; i < scene.lights.count; ++i) {
         const uint32_t light = structureAt<gpu::LightEntry>(scene.lights.table, i).light;
         const bool isTriangle = (light & gpu::LIGHT_IS_TRIANGLE) != 0;
-        add(isTriangle ? lampAtPlace(scene, light & ~gpu::LIGHT_IS_TRIANGLE)
-                       : lampOfRows(scene.lights, light));
+        if (!isTriangle && !hasSurface(scene.lights, light)) continue;
+        lamps.push_back(isTriangle ? lampAtPlace(scene, light & ~gpu::LIGHT_IS_TRIANGLE)
+                                   : lampOfRows(scene.lights, light));
     }
+    std::erase_if(lamps, [](const Lamp& lamp) { return !(lamp.power > 0); });
+    return lamps;
+}
+
+std::vector<Lamp> lampsOf(const GpuScene& scene) {
+    std::vector<Lamp> lamps = sampledLamps(scene);
     for (const uint32_t primitive : scene.lights.leftToBounces)
-        add(lampAtPlace(scene, scene.bvh.placeOf[primitive]));
+        lamps.push_back(lampAtPlace(scene, scene.bvh.placeOf[primitive]));
+    std::erase_if(lamps, [](const Lamp& lamp) { return !(lamp.power > 0); });
     return lamps;
 }
 

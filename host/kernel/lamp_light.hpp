@@ -34,6 +34,9 @@ struct PlacedSphere {
 
 PlacedSphere placedSphere(const WideLayout& bvh, uint32_t place);
 
+/// Lets a ray go on behind what it has met.
+void goThrough(const WideLayout& bvh, TraversalRay& ray, const TraversalHit& hit);
+
 /// Of the primitive at a place in the tree.
 gpu::MaterialHeader materialAtPlace(const GpuScene& scene, uint32_t place);
 
@@ -48,7 +51,10 @@ struct Lamp {
 /// An emissive triangle or sphere at a place in the tree.
 Lamp lampAtPlace(const GpuScene& scene, uint32_t place);
 
-/// The lights with a surface that are sampled, and the lamps that are left to bounces.
+/// The lights with a surface that are sampled.
+std::vector<Lamp> sampledLamps(const GpuScene& scene);
+
+/// These, and the lamps that are left to bounces.
 std::vector<Lamp> lampsOf(const GpuScene& scene);
 
 /// A ray of a lamp's light, by its area and the cosine.

@@ -67,7 +67,9 @@ BsdfSample sampleInterface(const Material& m, const Incidence& i, double u) {
     const glm::dvec3 passed = (1 - share) * glm::dvec3(m.transmittance);
     const double reflects = shareOfReflection(reflected, passed);
     if (u < reflects) return reflect(i.wo, reflected / reflects);
-    return refract(i.wo, eta, face.cosTransmitted, passed * (compression / (1 - reflects)));
+    BsdfSample s = refract(i.wo, eta, face.cosTransmitted, passed * (compression / (1 - reflects)));
+    s.chosen = 1 - reflects;
+    return s;
 }
 
 // --- All kinds

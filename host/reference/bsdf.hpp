@@ -19,6 +19,7 @@ struct BsdfSample {
     double pdf = 0;                               ///< by solid angle; delta lobes: of no meaning
     uint32_t lobe = gpu::LOBE_DIFFUSE_REFLECTION; ///< one gpu::LOBE_ bit
     glm::dvec3 left{1.0}; ///< the share of the weight whose lights are left to bounces
+    double chosen = 1;    ///< delta lobes: the probability of their choice
 
     bool transmitted() const { return lobe & gpu::TRANSMISSION_LOBES; } ///< to the other side
     bool isDelta() const { return lobe & gpu::DELTA_LOBES; }

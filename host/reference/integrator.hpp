@@ -134,6 +134,7 @@ class PathSample {
     // Of retrace().
     bool arriveWhere(const RecordedVertex& vertex, const Ray& ray, Skip skip, bool fromCamera);
     glm::dvec3 emissionWhere(const Ray& ray, double distance, uint32_t& emitter) const;
+    glm::dvec3 lightThroughGlass(Ray ray, Skip skip) const;
     void retraceLight(const RecordedLight& taken);
     void retraceBounce(const RecordedBounce& taken, Ray& ray, Skip& skip);
 

@@ -69,7 +69,9 @@ BsdfSample sampleThinDielectric(const Material& m, const glm::dvec3& wo, double 
     const double reflects = shareOfReflection(reflected, transmitted);
     if (u < reflects)
         return {{-wo.x, -wo.y, wo.z}, reflected / reflects, 0, gpu::LOBE_DELTA_REFLECTION};
-    return {-wo, transmitted / (1 - reflects), 0, gpu::LOBE_DELTA_TRANSMISSION};
+    return {
+        -wo,         transmitted / (1 - reflects), 0, gpu::LOBE_DELTA_TRANSMISSION, glm::dvec3(1.0),
+        1 - reflects};
 }
 
 BsdfValue evaluateFacetConductor(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi,

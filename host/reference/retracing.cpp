@@ -57,6 +57,33 @@ glm::dvec3 PathSample::emissionWhere(const Ray& ray, double distance, uint32_t& 
     return emission(s) * opacityAt(world_, hit);
 }
 
+/// What a light sample's ray brings that goes on through clear glass, bent, for which no surface is
+/// in the way that lets no light through in one direction. skip: of the ray.
+glm::dvec3 PathSample::lightThroughGlass(Ray ray, Skip skip) const {
+    constexpr int kMostPanes = 64;
+    glm::dvec3 left(1.0);
+    Filling filling = beyond(looksBehind());
+    for (int pane = 0; pane < kMostPanes && largestOf(left) > 0; ++pane) {
+        const Hit hit = world_.bvh.closest(ray, skip);
+        if (hit.primitive == kNoPrimitive)
+            return left * world_.lights.ambientRadiance(ray.direction);
+        left *= transmittance(filling.volume, hit.t);
+        SurfacePoint s = surfaceAt(world_.scene, ray, hit);
+        if (world_.hasDetails) applyTextures(s, world_.scene);
+        if (const glm::dvec3 light = emission(s); largestOf(light) > 0) return left * light;
+        faceForward(s, world_.conventions);
+        if (world_.hasDetails) applyNormalMap(s, world_.scene, world_.conventions);
+        constexpr double kLast = 1 - 0x1p-53; // of the numbers that choose a lobe
+        const BsdfSample on = sampleBsdf(s, glm::dvec3(kLast), world_.conventions);
+        if (on.lobe != gpu::LOBE_DELTA_TRANSMISSION) break;
+        left *= on.weight * on.chosen;
+        if (boundsVolume(*s.material)) filling.volume = s.outside ? s.material : nullptr;
+        ray = transmittedRay(s, on.direction);
+        skip = {s.triangle};
+    }
+    return glm::dvec3(0.0);
+}
+
 void PathSample::retraceLight(const RecordedLight& taken) {
     lit_ = surface_;
     if (isLitFromBehind(surface_) && glm::dot(taken.direction, surface_.shading) < 0) {
@@ -93,7 +120,8 @@ void PathSample::retraceLight(const RecordedLight& taken) {
     }
     const double density = taken.pdf > 0 ? taken.pdf : taken.probability;
     const glm::dvec3 f = evaluateBsdf(surface_, taken.direction, world_.conventions).value;
-    const glm::dvec3 value = density > 0 ? arriving * f * (taken.weight / density) : glm::dvec3(0);
+    const glm::dvec3 share = density > 0 ? f * (taken.weight / density) : glm::dvec3(0);
+    const glm::dvec3 value = arriving * share;
     RecordedLight::Fate fate = RecordedLight::Fate::BringsNothing;
     glm::dvec3 brings(0.0);
     // A sample that was meant for the other side of a surface is lost, which is no mistake.
@@ -105,10 +133,14 @@ void PathSample::retraceLight(const RecordedLight& taken) {
         ++rays_;
         const glm::dvec3 passes =
             shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
-        brings =
-            limited(throughput_ * value * passes * transmittance(filling.volume, taken.distance),
-                    scatterings_ + 1);
-        fate = largestOf(passes) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow;
+        glm::dvec3 found = value * passes * transmittance(filling.volume, taken.distance);
+        // Only the kernel's light samples go through glass, in some scenes, and know their light.
+        if (!(largestOf(passes) > 0) && taken.fate == RecordedLight::Fate::Arrives) {
+            ray.tMax = kInfinite;
+            found = share * lightThroughGlass(ray, {startOfLightSample()});
+        }
+        brings = limited(throughput_ * found, scatterings_ + 1);
+        fate = largestOf(found) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow;
     }
     radiance_ += brings;
     noteLight(light, fate, brings);

@@ -14,7 +14,7 @@ struct BsdfValue {
 struct BsdfSample {
     vec3 direction; ///< unit; world space, inside this folder the frame of the shading normal
     vec3 weight;    ///< f |cos| / pdf; 0: the path ends
-    float pdf;      ///< by solid angle; delta lobes: of no meaning
+    float pdf;      ///< by solid angle; delta lobes: the probability of their choice
     uint lobe;
 };
 
@@ -287,6 +287,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     if (isPlane) {
         s.lobe = transmits ? LOBE_DELTA_TRANSMISSION : LOBE_DELTA_REFLECTION;
         const float chosen = interfaceShare(c) * (transmits ? 1.0 - left.light.reflects : left.light.reflects);
+        s.pdf = chosen;
         s.weight = chosen > 0.0 ? (transmits ? left.light.transmitted : left.light.reflected) * (1.0 / chosen) : vec3(0.0);
     }
     if (!isPlane) {

@@ -28,6 +28,11 @@ LightSample lightSample(const Given given, inout PathState path, vec2 u, uint in
         picked.probability > 0.0 ? 1.0 / picked.probability : 0.0;
     light.radiance *= perProbability * lightSampleShare(given.frame, index);
     light.inversePdf *= perProbability;
+    if (LIGHT_THROUGH_GLASS) {
+        path.glass.light = picked.light;
+        path.glass.direction = light.direction;
+        path.glass.share = vec3(light.inversePdf * lightSampleShare(given.frame, index));
+    }
     if (RECORDS) {
         path.recordedLight = picked.light;
         if (light.inversePdf > 0.0) path.recordedPdf = float(LIGHT_SAMPLES) / light.inversePdf;
@@ -40,6 +45,7 @@ LightSample lightSample(const Given given, inout PathState path, vec2 u, uint in
 void traceDirectSample(const Given given, inout PathState path, LightSample light, bool hemisphere) {
     const BsdfValue f = evaluateMixture(path.material, path.surface, light.direction);
     path.directValue = f.value * light.radiance;
+    if (LIGHT_THROUGH_GLASS) path.glass.share *= f.value;
     if (!(dot(path.directValue, vec3(1.0)) > 0.0)) {
         if (!hemisphere) noteLightSample(given.frame, path, light, vec3(0.0));
         if (RECORDS) recordLightSample(path, light, 1.0, false);
@@ -50,6 +56,7 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
         const float pdf = bouncePdfWithGap(given.gap, path.surface, lobesOf(path.material), f.pdf, light.direction);
         weight = lightSampleWeight(light.inversePdf, pdf);
         path.directValue *= weight;
+        if (LIGHT_THROUGH_GLASS) path.glass.share *= weight;
     }
     if (!hemisphere) noteLightSample(given.frame, path, light, path.directValue);
     if (RECORDS) recordLightSample(path, light, weight, true);

@@ -19,8 +19,8 @@ void noteLightSample(const Frame frame, inout PathState path, LightSample light,
     STORE_ROW(lightNotes, row + 2u, floatBitsToUint(vec4(light.direction, luminanceOf(path.throughput * value))));
 }
 
-/// That sample's ray has met something.
-void noteShadow(const Frame frame, PathState path) {
+/// That sample's ray, of direction w, has met something.
+void noteShadow(const Frame frame, PathState path, vec3 w) {
     if (!NOTES_LIGHT || !path.isNoted) return;
-    STORE_ROW(lightNotes, lightNoteRow(frame, path) + 2u, uvec4(floatBitsToUint(path.ray.direction), 0u));
+    STORE_ROW(lightNotes, lightNoteRow(frame, path) + 2u, uvec4(floatBitsToUint(w), 0u));
 }

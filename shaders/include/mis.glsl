@@ -21,9 +21,18 @@ float bounceWeight(float inversePdf, float bouncePdf) {
     return powerHeuristic(float(LIGHT_SAMPLES) / max(bouncePdf * inversePdf, TINY));
 }
 
+/// A ray that has found light, were there no glass on its way: as it has left its surface.
+struct StraightRay {
+    bool isBehindGlass;
+    bool isSample;      ///< it is a light sample's, meant for this light (LightEntry::light)
+    uint light;
+    bool keepsDirection; ///< behind glass it is as far from the sky as before (clear_glass.glsl)
+};
+
 /// The weight of the light that ray t, a bounce from a surface with this normal, has found: the emissive surface it
-/// has hit, or this sky. What no light sample goes to is left to bounces.
-float foundLightWeight(const Given given, Traversal t, vec3 normal, FoundSky sky, float bouncePdf) {
+/// has hit, or this sky. What no light sample goes to is left to bounces. bouncePdf: behind glass 0 where all that light
+/// samples go to is left to them.
+float foundLightWeight(const Given given, Traversal t, vec3 normal, FoundSky sky, float bouncePdf, StraightRay straight) {
     const bool hit = t.hitPrimitive != NO_PRIMITIVE;
     PlacedPrimitive place;
     uint number = given.frame.ambientLight;
@@ -31,10 +40,17 @@ float foundLightWeight(const Given given, Traversal t, vec3 normal, FoundSky sky
         place = fetchPlace(t.hitPrimitive);
         number = place.light;
     }
-    if (number == NO_LIGHT) return 1.0;
+    if (number == NO_LIGHT) return straight.isSample ? 0.0 : 1.0;
     const LightEntry entry = fetchLightEntry(number);
+    if (LIGHT_THROUGH_GLASS && straight.isBehindGlass) {
+        bool leads = straight.keepsDirection;
+        if (hit) leads = leadsTo(given.onlyLight, place, entry.light, t.origin, t.direction);
+        if (straight.isSample) return leads && (LIGHT_CHOICE == LIGHT_CHOICE_ONE || entry.light == straight.light) ? 1.0 : 0.0;
+        if (!leads) return 1.0;
+    }
     const float probability = lightProbability(given.frame, entry, t.origin, normal);
     if (!(probability > 0.0)) return 1.0;
+    if (LIGHT_THROUGH_GLASS && bouncePdf == 0.0) return 0.0;
     const float inversePdf = hit ? areaLightInversePdf(given.onlyLight, t, place, entry.light) : sky.inversePdf;
     return bounceWeight(inversePdf / probability, bouncePdf);
 }

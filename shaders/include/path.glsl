@@ -8,6 +8,7 @@
 #include "include/seeing.glsl"
 #include "include/guide_notes.glsl"
 #include "include/recording.glsl"
+#include "include/through_glass.glsl"
 
 // --- Arrivals ----------------------------------------------------------------------------------
 
@@ -18,8 +19,14 @@ vec3 emissionAt(SurfacePoint s, Material m) {
 
 /// The share of the light that the path ray has found that is this ray's, and not light samples'.
 float foundShare(const Given given, PathState path, FoundSky sky) {
-    if (MIS_LOBES == 0u || path.bouncePdf == 0.0) return 1.0;
-    return foundLightWeight(given, path.ray, path.departureNormal, sky, path.bouncePdf);
+    const StraightRay straight = StraightRay(isBehindGlass(path), isThroughGlass(path), path.glass.light, keepsDirection(path));
+    if (!straight.isBehindGlass && (MIS_LOBES == 0u || path.bouncePdf == 0.0)) return 1.0;
+    Traversal t = path.ray;
+    if (straight.isBehindGlass) {
+        t.origin = path.departurePoint;
+        t.direction = path.glass.direction;
+    }
+    return foundLightWeight(given, t, path.departureNormal, sky, path.bouncePdf, straight);
 }
 
 MaterialPoint askedPoint(PathState path) {
@@ -37,7 +44,12 @@ void finishShadowRay(const Frame frame, inout PathState path) {
         path.radiance += light;
         if (RECORDS) recordArrivedLight(path, light);
     } else {
-        noteShadow(frame, path);
+        const bool mayBeGlass = HAS_BLENDS && LIGHT_THROUGH_GLASS || isClear(path.found.parameters);
+        if (mayBeGlass && dot(path.glass.share, vec3(1.0)) > 0.0) {
+            enterGlass(path);
+            return;
+        }
+        noteShadow(frame, path, path.ray.direction);
     }
     path.phase = PHASE_DIRECT;
 }
@@ -61,8 +73,11 @@ void finishHemisphereRay(const Frame frame, inout PathState path) {
 void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float share) {
     const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && countedBounces(path.bounce, path.uncounted) >= frame.minBounce;
     const bool adds = counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT;
-    if (adds) path.radiance += limited(path, path.throughput * sky.radiance * share);
-    if (RECORDS) recordMiss(path, adds ? limited(path, path.throughput * sky.radiance * share) : vec3(0.0), share);
+    vec3 light = vec3(0.0);
+    if (adds) light = limited(path, path.throughput * sky.radiance * share);
+    path.radiance += light;
+    if (isThroughGlass(path)) arriveThroughGlass(path, light, share);
+    else if (RECORDS) recordMiss(path, light, share);
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
@@ -70,7 +85,7 @@ void arrive(const Given given, inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE, inMedium = scattersInMedium(path.ray);
     path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
-    if (!hit) sky = skyFrom(given.frame, path.departurePoint, path.departureNormal, path.departureTable, path.ray.direction);
+    if (!hit) sky = skyFrom(given.frame, path.departurePoint, path.departureNormal, path.departureTable, directionToSky(path));
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.filling.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
@@ -106,12 +121,14 @@ void arrive(const Given given, inout PathState path) {
         path.found = lookUpMaterial(materialPoint(path.surface));
     }
     path.material = inMixture(path.found.parameters, path.surface);
-    if (path.countsEmission) path.radiance += limited(path, path.throughput * emissionAt(path.surface, path.material) * share);
-    if (RECORDS)
-        recordArrival(path,
-                      path.countsEmission ? limited(path, path.throughput * emissionAt(path.surface, path.material) * share)
-                                          : vec3(0.0),
-                      share, 1.0 - (ROULETTE == ROULETTE_FIXED ? given.frame.terminationProbability : 0.0), aimed);
+    vec3 light = vec3(0.0);
+    if (path.countsEmission) light = limited(path, path.throughput * emissionAt(path.surface, path.material) * share);
+    path.radiance += light;
+    const bool isSample = isThroughGlass(path);
+    if (isSample) arriveThroughGlass(path, light, share);
+    else if (RECORDS)
+        recordArrival(path, light, share, 1.0 - (ROULETTE == ROULETTE_FIXED ? given.frame.terminationProbability : 0.0), aimed);
+    if (isSample && !isClear(path.material)) return;
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
     if (!inMedium) {
         faceForward(path.surface);
@@ -127,6 +144,10 @@ void arrive(const Given given, inout PathState path) {
     if (WALKS && isUnderSurface(path.filling.medium)) ++path.uncounted;
     if (countedBounces(path.bounce, path.uncounted) > given.frame.maxBounces) return;
     if (WALKS && path.uncounted >= MOST_UNDER_SURFACE) return;
+    if (isSample) {
+        path.phase = PHASE_BOUNCE;
+        return;
+    }
     if (ROULETTE == ROULETTE_FIXED) {
         if (path.arrivalNumbers.z < given.frame.terminationProbability) return;
         path.throughput /= 1.0 - given.frame.terminationProbability;
@@ -161,7 +182,8 @@ void nextBranch(inout PathState path, Material material) {
     path.surface = path.splitPoint.surface;
     path.material = inMixture(material, path.surface);
     path.throughput = path.splitPoint.throughput;
-    if (AIMS_BOUNCES) path.aim.weight = 1.0; // only surfaces that do not aim come before
+    if (AIMS_BOUNCES) path.aim.weight = 1.0; // only surfaces that do not aim come before,
+    path.glass.isFromLit = false;            // nor take light samples
     path.bounce = path.splitPoint.bounce;
     if (WALKS) path.uncounted = path.splitPoint.uncounted;
     path.filling = path.splitPoint.filling;
@@ -182,14 +204,19 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     else b = ofMixture(sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight), path.surface);
     if (SEES) path.throughput *= tintOf(path.material, b);
     else path.throughput *= b.weight;
+    if (isThroughGlass(path)) {
+        path.throughput *= b.lobe == LOBE_DELTA_TRANSMISSION ? b.pdf : 0.0; // not by chance
+        roulette = 0.0;
+        mixtureWeight = 1.0;
+    }
     float largest = largestComponent(path.throughput);
-    if (AIMS_BOUNCES) largest = throughputForRoulette(path.aim, path.material, largest);
-    if (RECORDS) recordBounce(path, b, largest, roulette, mixtureWeight);
+    if (AIMS_BOUNCES && !isThroughGlass(path)) largest = throughputForRoulette(path.aim, path.material, largest);
+    if (RECORDS && !isThroughGlass(path)) recordBounce(path, b, largest, roulette, mixtureWeight);
     if (!(largest > 0.0)) {
         if (SEES) endAtNothing(path.seen, vec3(0.0), path.firstNormal);
         return;
     }
-    if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {
+    if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START && !isThroughGlass(path)) {
         const float q = min(1.0, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
         path.throughput *= 1.0 / q;
@@ -197,14 +224,16 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     if (GAP_PROPOSAL || AIMS_BOUNCES) path.throughput *= mixtureWeight;
     const bool transmitted = isTransmission(b.lobe);
     path.countsEmission = emissionCounts(given.frame, path, b.lobe);
-    path.bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
-    path.departureNormal = shadingNormal(path.surface);
-    const SurfacePoint lit = sideLit(path.surface, path.material, transmitted);
-    path.departureTable = lit.table;
-    path.departurePoint = litPoint(lit);
-    if (isLitFromBothSides(lobesOf(path.material))) { // as light samples of that side are taken
-        path.bouncePdf *= 2.0;
-        path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
+    if (departs(given.frame, path, b)) {
+        path.bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
+        path.departureNormal = shadingNormal(path.surface);
+        const SurfacePoint lit = sideLit(path.surface, path.material, transmitted);
+        path.departureTable = lit.table;
+        path.departurePoint = litPoint(lit);
+        if (isLitFromBothSides(lobesOf(path.material))) { // as light samples of that side are taken
+            path.bouncePdf *= 2.0;
+            path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
+        }
     }
     path.filling = fillingBeyond(path.surface, path.material, path.filling, transmitted);
     traceFrom(path, path.surface, PHASE_PATH, leaveThroughMedia(path.surface, b.direction, transmitted), b.direction,
@@ -219,6 +248,11 @@ void beginSample(const Frame frame, inout PathState path) {
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
     if (AIMS_BOUNCES) path.aim = NO_AIM;
+    if (LIGHT_THROUGH_GLASS) {
+        path.glass.isUnderWay = false;
+        path.glass.isFromLit = false;
+        path.glass.panes = 0u;
+    }
     path.departureTable = GUIDES_LIGHT ? GUIDE_NODES : OWN_TABLE;
     path.departurePoint = frame.cameraPosition;
     path.filling = fillingOf(HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM);
@@ -238,10 +272,10 @@ void startCameraRay(const Given given, inout PathState path, vec2 u) {
 void depart(const Given given, inout PathState path) {
     const bool begins = path.phase == PHASE_NEXT;
     if (begins) beginSample(given.frame, path);
-    else if (SPLITS && path.splitPoint.bounce == 0u && scattersAtRandom(lobesOf(path.material))) splitPath(given.frame, path);
+    else if (SPLITS && path.splitPoint.bounce == 0u && !isThroughGlass(path) && scattersAtRandom(lobesOf(path.material))) splitPath(given.frame, path);
     const uvec4 words = pathWords(given.frame, path, 0u);
     const vec4 u = unitFloats(words);
-    path.arrivalNumbers = vec3(u.xy, leftOver(words));
+    if (!isThroughGlass(path)) path.arrivalNumbers = vec3(u.xy, leftOver(words));
     // Most materials take either the two numbers within a lobe or the one that chooses a side, so that both may be
     // the same; where nothing else takes the first number of the block, it chooses.
     if (begins) startCameraRay(given, path, u.zw);
@@ -251,12 +285,13 @@ void depart(const Given given, inout PathState path) {
         else if (SCATTERS_THROUGH)
             numbers = vec3(u.zw, takesThreeNumbers(lobesOf(path.material)) ? sideNumber(given.frame, path) : u.z);
         else numbers = u.zwz;
+        if (isThroughGlass(path)) numbers = vec3(1.0 - UNIT_ROUNDOFF); // the interface, which lets light through if it can
         scatter(given, path, numbers, path.arrivalNumbers.z);
     }
 }
 
 /// The path is over, but not the sample.
-bool branchIsOver(PathState path) { return SPLITS && path.phase == PHASE_ENDED && path.branchesLeft > 0u; }
+bool branchIsOver(PathState path) { return SPLITS && !isThroughGlass(path) && path.phase == PHASE_ENDED && path.branchesLeft > 0u; }
 
 void finishSample(const Frame frame, inout PathState path) {
     if (SPLITS && path.splitPoint.bounce != 0u) path.radiance /= float(frame.branches);
@@ -275,7 +310,8 @@ bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
     if (isToLight(path.phase)) finishShadowRay(given.frame, path);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(given.frame, path);
-    else if (path.phase == PHASE_PATH) arrive(given, path);
+    if (path.phase == PHASE_PATH) arrive(given, path);
+    comeBackFromGlass(given.frame, path);
     return true;
 }
 

@@ -36,11 +36,12 @@ uint firstPlace() { return gl_WorkGroupID.x >> 31; }
 #include "include/mixture.glsl"
 #include "include/guide.glsl"
 #include "lights/lights.glsl"
-#include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
 #include "include/two_sides.glsl"
 #include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"
+#include "include/clear_glass.glsl"
+#include "include/mis.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 

@@ -59,8 +59,9 @@ struct PathState {
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     Aim aim;              ///< of the bounce under way, with AIMS_BOUNCES
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
-    vec3 departurePoint;  ///< likewise: where its light samples were taken (litPoint()), with PORTALS
+    vec3 departurePoint;  ///< likewise: where its light samples were taken (litPoint()), with PORTALS or LIGHT_THROUGH_GLASS
     uint departureTable;  ///< likewise: by which its light samples choose tiles of the environment (guide.glsl)
+    ThroughGlass glass;   ///< with LIGHT_THROUGH_GLASS
 
     // Where samples are of what the camera sees (SEES):
     SeenPixel seen;   ///< of the pixel
@@ -91,6 +92,9 @@ struct PathState {
 
 /// Direct light samples at a surface: directions of hemisphere sampling, then samples of lights.
 uint directSamples(const Frame frame) { return frame.hemisphereSamples + frame.lightSamples; }
+
+/// A light sample is on its way through glass, as a path ray.
+bool isThroughGlass(PathState path) { return LIGHT_THROUGH_GLASS && path.glass.isUnderWay; }
 
 /// Scatterings that count so far.
 uint countedBounces(uint bounce, uint uncounted) { return WALKS ? bounce - uncounted : bounce; }
@@ -158,7 +162,8 @@ bool isTracing(uint p) {
 
 void startRay(inout PathState path, inout Stack stack) {
     if (!isTracing(path.phase) || traversing(path.ray)) return;
-    path.ray.anyHit = isToLight(path.phase) && !HAS_ALPHA;
+    // What may be glass has to be met first.
+    path.ray.anyHit = isToLight(path.phase) && !HAS_ALPHA && !LIGHT_THROUGH_GLASS;
     startTraversal(path.ray, stack);
     ++path.rayCount;
 }

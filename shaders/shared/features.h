@@ -172,9 +172,11 @@
     F(63, uint, STRANDS, 0u, tuning.strands > 1 ? tuning.strands : 0, own, \
       "lanes at a pixel", count(""), "strands of a pixel's samples, each with sums of its own (PixelState)") \
     F(64, bool, AIMS_BOUNCES, false, aimsBounces(scene, settings), own, \
-      "bounces that aim at what lamps light", flag, "a second density of bounces (aimed_bounces.glsl)")
+      "bounces that aim at what lamps light", flag, "a second density of bounces (aimed_bounces.glsl)") \
+    F(66, bool, LIGHT_THROUGH_GLASS, false, lightsThroughGlass(scene, settings), own, \
+      "light samples through glass", flag, "rays of light samples that go on, bent, where they meet clear glass")
 
-#define SPEC_COUNT 66
+#define SPEC_COUNT 67
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -49,6 +49,18 @@
     F(uint, filling.volumes, exists && mediaDo(MEDIA_OVERLAP), readers, writers) \
     F(uint, filling.around, exists && mediaDo(MEDIA_OVERLAP), readers, writers)
 
+/// The rows of a material (fetch.glsl).
+#define MATERIAL_FIELDS(F, of, exists, readers, writers) \
+    F(uvec4, of.header, exists, readers, writers) \
+    F(uvec4, of.row1, exists, readers, writers) \
+    F(uvec4, of.row2, exists && materialsHaveRow(2u), readers, writers) \
+    F(uvec4, of.row3, exists && materialsHaveRow(3u), readers, writers) \
+    F(uvec4, of.row4, exists && materialsHaveRow(4u), readers, writers) \
+    F(uvec4, of.row5, exists && materialsHaveRow(5u), readers, writers) \
+    F(uvec4, of.row6, exists && materialsHaveRow(6u), readers, writers) \
+    F(uvec4, of.row7, exists && sceneHas(LOBE_DIFFUSE_TRANSMISSION), readers, writers) \
+    F(uvec4, of.row8, exists && HAS_IRIDESCENCE, readers, writers)
+
 /// F(type, member, exists, readers, writers): all of a path (path_state.glsl) and of its place in the work list that
 /// the next stage, or the next dispatch, has to find. exists: whether the scene's kernels have the field.
 #define PATH_FIELDS(F) \
@@ -77,14 +89,26 @@
     FILLING_FIELDS(F, path.crossing.filling, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
     F(float, path.crossing.error, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
     F(bool, path.crossing.isUntold, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
-    F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.aim.place, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.aim.bsdfPdf, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.aim.weight, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
-    F(vec3, path.departurePoint, PORTALS != 0u, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(vec3, path.departurePoint, PORTALS != 0u || LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(uint, path.departureTable, GUIDES_LIGHT, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(vec3, path.glass.direction, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
+    F(bool, path.glass.isFromLit, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(uint, path.glass.panes, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(bool, path.glass.isUnderWay, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(bool, path.glass.hasArrived, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
+    F(uint, path.glass.light, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_LIGHT) \
+    F(vec3, path.glass.share, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_LIGHT) \
+    SURFACE_FIELDS(F, path.glass.surface, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
+    MATERIAL_FIELDS(F, path.glass.material, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
+    F(vec3, path.glass.throughput, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
+    F(uint, path.glass.bounce, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
+    FILLING_FIELDS(F, path.glass.filling, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
     F(vec3, path.firstNormal, SEES_SURFACES, BY_ALL | AT_PAUSE, BY_FOLLOW | AT_PAUSE) \
     F(vec3, path.arrivalNumbers, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.filterWeight, samplesHaveWeights(), BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
@@ -95,15 +119,7 @@
     F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     SURFACE_FIELDS(F, path.surface, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.header, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row1, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row2, materialsHaveRow(2u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row3, materialsHaveRow(3u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row4, materialsHaveRow(4u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row5, materialsHaveRow(5u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row6, materialsHaveRow(6u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row7, sceneHas(LOBE_DIFFUSE_TRANSMISSION), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
-    F(uvec4, path.material.row8, HAS_IRIDESCENCE, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    MATERIAL_FIELDS(F, path.material, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
     F(vec3, path.splitPoint.throughput, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     F(uint, path.splitPoint.bounce, SPLITS, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.splitPoint.uncounted, SPLITS && mediaDo(MEDIA_UNDER_SURFACE), AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \

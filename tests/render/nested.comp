@@ -33,11 +33,12 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/mixture.glsl"
 #include "include/guide.glsl"
 #include "lights/lights.glsl"
-#include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
 #include "include/two_sides.glsl"
 #include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"
+#include "include/clear_glass.glsl"
+#include "include/mis.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 

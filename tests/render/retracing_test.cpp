@@ -104,6 +104,44 @@ TEST_F(Retracing, KnowsWhatAimedBouncesWeigh) {
     EXPECT_GT(lit, kPaths / 8);
 }
 
+/// A room with a wall of glass, a lamp behind it, and light samples that go through.
+TEST_F(Retracing, FollowsLightSamplesThroughGlass) {
+    scenes::SceneMaker b;
+    const uint32_t white = b.add(scenes::diffuse(0.6f)), shine = b.add(scenes::emissive(30));
+    const glm::vec3 low(-1), x(2, 0, 0), y(0, 2, 0), z(0, 0, 2);
+    b.quad(low, z, x, white), b.quad(low + y, x, z, white), b.quad(low, y, z, white);
+    b.quad(low + x, z, y, white), b.quad(low, x, y, white), b.quad(low + z, y, x, white);
+    Material glass;
+    glass.kind = MaterialKind::Dielectric;
+    glass.ior = 1.5f;
+    const uint32_t solid = b.add(glass);
+    b.quad({0.2f, -1, -1}, z, y, solid), b.quad({0.5f, -1, -1}, y, z, solid);
+    glass.kind = MaterialKind::ThinDielectric;
+    b.quad({0.6f, -1, -1}, y, z, b.add(glass));
+    b.sphere({0.8f, 0.1f, 0.1f}, 0.1f, shine);
+    RenderSettings s;
+    s.area = {16, 12, {}};
+    s.estimator.branches = 2;
+    s.estimator.directLight = DirectLight::MisAll;
+    const Camera camera = lookingAt({-0.9, 0.5, 0.8}, {0, -0.4, -0.2}, 0.9);
+    GpuScene gpu = packScene(b.scene, buildWideBvh(b.scene), lightSelection(s.estimator));
+    gpu.glassBeforeLights = 1;
+    VulkanBackend device(testDevice(), gpu, camera, s);
+    ASSERT_NE(device.features()[SPEC_LIGHT_THROUGH_GLASS], 0u);
+    const ReferenceBackend host(b.scene, camera, s);
+    size_t arrive = 0;
+    for (uint32_t i = 0; i < kPaths; ++i) {
+        const RecordedPath taken = device.record(i, i), again = host.retrace(taken);
+        ASSERT_EQ(again.vertices.size(), taken.vertices.size());
+        for (const RecordedVertex& v : taken.vertices)
+            for (const RecordedLight& light : v.lights)
+                arrive += light.fate == RecordedLight::Fate::Arrives;
+        EXPECT_LE(glm::length(again.radiance - taken.radiance), kOff * glm::length(taken.radiance))
+            << "pixel and sample " << i;
+    }
+    EXPECT_GT(arrive, kPaths);
+}
+
 /// Rays of both pass the same surfaces, also where they meet nothing in the end.
 TEST_F(Retracing, PassesWhatIsPartlyThere) {
     Scene scene = readScene("cornell_boxes");
