@@ -91,6 +91,7 @@ void main() {
             const Ray aimed = prepareLeg(lane.ray, prepared);
             for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
                 traversalStep(lane.ray, stack, aimed);
+            testWaitingSphere(lane.ray, prepared);
         }
         bool waiting = !traversing(lane.ray);
         while (waiting) {

@@ -251,6 +251,7 @@ class Traversal {
 
     void visitLeaf(const gpu::LeafRecord& r, uint32_t record) {
         if (r.primitive & gpu::RECORD_IS_SPHERE) {
+            ++counts_.spheres;
             const auto hit =
                 hitSphere(r.p0, std::bit_cast<float>(r.homeOrRadius), prepared_, ray_.tMin, hit_.t);
             if (hit) hit_ = {2 * record, hit->t, 0, 0, gpu::NO_PLACEMENT};

@@ -78,6 +78,7 @@ struct TraversalHit {
 /// What a traversal did.
 struct TraversalCounts {
     uint32_t nodes = 0, leaves = 0; ///< records visited
+    uint32_t spheres = 0;           ///< of these leaves
     uint32_t mostWaiting = 0;       ///< stack entries in use at once
 };
 

@@ -150,8 +150,8 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
                           lightSelection(estimator), kept ? kept->environment : nullptr,
                           gatheredRows, before);
     if (kept) kept->environment = built.gpu.lights.environment;
-    if (kept) built.gpu.recordsOfRay = kept->recordsOfRay;
-    if (before) built.gpu.recordsOfRay = before->recordsOfRay;
+    if (kept) built.gpu.ofRay = kept->ofRay;
+    if (before) built.gpu.ofRay = before->ofRay;
     built.seconds = watch.seconds();
     listener.doing(Stage::Preparing, "opening the device and compiling the kernel"); // comes next
     return built;
@@ -159,7 +159,7 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
 
 void fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                   const Estimator& estimator) {
-    if (built.recordsOfRay == 0) built.recordsOfRay = recordsOfRay(built.bvh, camera);
+    if (!built.ofRay.isKnown()) built.ofRay = visitsOfRay(built.bvh, camera);
     if (!built.lit && mayAimBounces(estimator)) built.lit = findLitCells(built);
     built.glassBeforeLights =
         mayLightThroughGlass(built, estimator) ? shareThroughGlass(scene, built, camera) : 0;

@@ -87,7 +87,7 @@ struct KeptParts {
     KeptTrees trees;
     std::shared_ptr<const EnvironmentTable> environment;
     uint32_t environmentIdentity = 0; ///< environmentIdentity() of what it was made from
-    double recordsOfRay = 0;          ///< GpuScene::recordsOfRay of the first moment
+    VisitsOfRay ofRay;                ///< GpuScene::ofRay of the first moment
 };
 
 /// kept: where the scene is a moment of a sequence. gatheredRows, before: as packScene() has them.
@@ -97,7 +97,7 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
 
 /// Brings into the kernel's arrays of `scene` what follows from the picture to come.
 /// GpuScene::portals: those of the scene, or else those that are found for what this camera sees;
-/// none where light samples go to no sky, or shall aim at none. GpuScene::recordsOfRay, unless it
+/// none where light samples go to no sky, or shall aim at none. GpuScene::ofRay, unless it
 /// is known: pictures of other cameras keep it, and the kernel with it.
 void fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                   const Estimator& estimator);

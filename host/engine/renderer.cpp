@@ -252,7 +252,7 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
 void Renderer::fitToPicture() {
     GpuScene& scene = built_->gpu;
     stromboli::fitToPicture(scene, *scene_, camera_, settings_.estimator);
-    kept_.recordsOfRay = scene.recordsOfRay;
+    kept_.ofRay = scene.ofRay;
     const bool areStated = !scene_->portals.empty();
     if (const size_t count = scene.portals.all.size(); count > 0)
         listener_.detail(fmt::format("light samples aim at {} {} that the sky is seen through{}",

@@ -22,6 +22,7 @@ Feeler feel(const WideLayout& bvh, TraversalRay ray, const SeesThrough& seesThro
         hit = closestHit(bvh, ray, &counts);
     }
     f.visited = counts.nodes + counts.leaves;
+    f.spheres = counts.spheres;
     if (!hit) return f;
     f.isFree = false;
     f.met = ray.origin + hit.t * (1 - 0x1p-12f) * ray.direction;
@@ -75,19 +76,20 @@ Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t ea
     return feelAll(bvh, rays, seesThrough);
 }
 
-double recordsOfRay(const WideLayout& bvh, const Camera& camera) {
+VisitsOfRay visitsOfRay(const WideLayout& bvh, const Camera& camera) {
     constexpr uint32_t kSide = 12;
     constexpr size_t kEach = 2;
     Random random(1);
     const Feelers seen = lookAround(bvh, camera, kSide);
     const Feelers once = feelFrom(bvh, seen, kEach, random);
     const Feelers twice = feelFrom(bvh, once, 1, random);
-    uint64_t visited = 0;
+    uint64_t visited = 0, spheres = 0;
     for (const Feelers* feelers : {&seen, &once, &twice})
         for (const Feeler& f : *feelers)
-            visited += f.visited;
+            visited += f.visited, spheres += f.spheres;
     const size_t rays = seen.size() + once.size() + twice.size();
-    return rays > 0 ? double(visited) / double(rays) : 0;
+    if (rays == 0) return {};
+    return {double(visited) / double(rays), double(spheres) / double(rays)};
 }
 
 std::optional<double> shareOfFree(std::span<const Feeler> feelers) {

@@ -20,7 +20,8 @@ struct Feeler {
     bool isFree = true;          ///< it has met nothing
     glm::vec3 met{0};            ///< else a point just before where it ended,
     glm::vec3 normal{0};         ///< and of what: unit, towards the origin; 0: a sphere
-    uint32_t visited = 0;        ///< records of the tree
+    uint32_t visited = 0;        ///< records of the tree,
+    uint32_t spheres = 0;        ///< and of these, spheres
 };
 using Feelers = std::vector<Feeler>;
 
@@ -36,9 +37,16 @@ Feelers lookAround(const WideLayout& bvh, const Camera& camera, uint32_t side,
 Feelers feelFrom(const WideLayout& bvh, std::span<const Feeler> ended, size_t each, Random& random,
                  const SeesThrough& seesThrough = {});
 
-/// Records that a ray of a path visits on the way, on average, from the camera and after one and
-/// two bounces; 0: the camera sees nothing.
-double recordsOfRay(const WideLayout& bvh, const Camera& camera);
+/// What a ray of a path visits on its way, on average: records of the tree, and of these, spheres.
+struct VisitsOfRay {
+    double records = 0, spheres = 0;
+
+    bool isKnown() const { return records > 0; }
+    bool operator==(const VisitsOfRay&) const = default;
+};
+
+/// From the camera and after one and two bounces. Unknown: the camera sees nothing.
+VisitsOfRay visitsOfRay(const WideLayout& bvh, const Camera& camera);
 
 /// The share of those that meet nothing; empty: there are none.
 std::optional<double> shareOfFree(std::span<const Feeler> feelers);

@@ -30,11 +30,11 @@ struct GpuScene {
     std::optional<LitCells>
         lit; ///< where bounces aim; none: not looked for, as packScene() leaves it
     double glassBeforeLights =
-        0; ///< shareThroughGlass() of the picture to come; packScene() leaves it 0
-    double recordsOfRay = 0;  ///< recordsOfRay() of its first picture; packScene() leaves it 0
-    SceneClosures closures;   ///< of the materials that primitives have
-    bool hasEmission = false; ///< a primitive emits
-    bool hasBlends = false;   ///< a primitive's material is a mixture
+        0;                  ///< shareThroughGlass() of the picture to come; packScene() leaves it 0
+    VisitsOfRay ofRay;      ///< visitsOfRay() of its first picture; packScene() leaves it unknown
+    SceneClosures closures; ///< of the materials that primitives have
+    bool hasEmission = false;                ///< a primitive emits
+    bool hasBlends = false;                  ///< a primitive's material is a mixture
     uint32_t mostOthers = 0, mostBlends = 0; ///< of MaterialRows
     bool hasBlackBacks = false;              ///< a primitive's material is black behind
     bool hasReliefRules = false;             ///< a primitive's material has MATERIAL_RELIEF_ bits

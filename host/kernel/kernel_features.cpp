@@ -156,11 +156,19 @@ uint32_t traversalSteps(const KernelFeatures& f, const GpuScene& scene,
                         const DeviceTuning& tuning) {
     if (f[SPEC_HAS_PLACEMENTS]) return tuning.placedTraversalSteps;
     const bool isLong = servesForLong(f);
-    if (!tuning.stepsFitRays || !(scene.recordsOfRay > 0))
+    if (!tuning.stepsFitRays || !scene.ofRay.isKnown())
         return isLong ? tuning.richTraversalSteps : tuning.traversalSteps;
     constexpr double kLeast = 4, kMost = 16;
-    const double wanted = isLong ? 2 + 1.25 * scene.recordsOfRay : scene.recordsOfRay;
+    const double wanted = isLong ? 2 + 1.25 * scene.ofRay.records : scene.ofRay.records;
     return uint32_t(std::clamp(2 * std::round(wanted / 2), kLeast, kMost));
+}
+
+/// Whether rays meet so few spheres that to test one in every step takes longer than to have it
+/// wait (docs/results.md, "Spheres that wait").
+bool spheresWait(const GpuScene& scene) {
+    constexpr double kFew = 0.5;
+    return scene.hasSpheres && scene.hasTriangles && !scene.hasPlacements &&
+           scene.ofRay.isKnown() && scene.ofRay.spheres <= kFew;
 }
 
 /// The 32 bits of a constant.

@@ -142,5 +142,6 @@ void traverseSomeSteps(inout PathState path, inout Job job, inout Stack stack) {
             traversalStep(path.ray, stack, aimed);
         }
         if (COUNT_STEPS) job.allSteps += TRAVERSAL_STEPS;
+        testWaitingSphere(path.ray, prepared);
     }
 }

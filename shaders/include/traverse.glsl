@@ -18,6 +18,7 @@ struct Traversal {
     uint placement; ///< in whose prototype the traversal is; NO_PLACEMENT: in none
     bool waits; ///< for a ray that is prepared for another placement, or for the world
     uint hitPlacement, skipPlacement, passedPlacement; ///< of hitPrimitive, skipPrimitive and passed
+    uint sphere; ///< SPHERES_WAIT: the record of one that has been met and not tested yet; NO_PRIMITIVE: none
 };
 
 /// Bit of Group::word, free in groups of two words: the group is one of the tree over the world.
@@ -69,6 +70,7 @@ void startTraversal(inout Traversal t, inout Stack stack) {
     t.placement = NO_PLACEMENT;
     t.hitPlacement = NO_PLACEMENT;
     t.waits = false;
+    t.sphere = NO_PRIMITIVE;
 }
 
 void startTraversal(out Traversal t, inout Stack stack, vec3 origin, vec3 direction, float tMin, float tMax,
@@ -116,6 +118,16 @@ void acceptTriangle(inout Traversal t, TriangleHit hit, uint place, bool isLeaf)
     t.hitPlacement = accepted ? t.placement : t.hitPlacement;
 }
 
+void testSphere(inout Traversal t, Ray ray, vec3 center, float radius, uint record, bool isSphere) {
+    const uint place = 2u * record;
+    const float distance = hitSphere(center, radius, ray, nearEnd(t, place), farEnd(t, place));
+    if (isSphere && distance < INFINITE_DISTANCE) {
+        t.tMax = distance;
+        t.hitPrimitive = place;
+        t.hitPlacement = NO_PLACEMENT;
+    }
+}
+
 /// Tests the one or two triangles of a leaf, or its sphere.
 void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
     if (HAS_TRIANGLES) {
@@ -123,18 +135,19 @@ void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
         acceptTriangle(t, hit.first, 2u * leafHome(r), isLeaf);
         acceptTriangle(t, hit.second, 2u * leafHome(r) + 1u, isLeaf);
     }
-    if (HAS_SPHERES) {
-        const vec3 center = uintBitsToFloat(r.r0.xyz);
-        const uint place = 2u * record;
-        const float distance =
-            hitSphere(center, leafRadius(r), ray, nearEnd(t, place), farEnd(t, place));
-        const bool isSphere = isLeaf && (r.r0.w & RECORD_IS_SPHERE) != 0u;
-        if (isSphere && distance < INFINITE_DISTANCE) {
-            t.tMax = distance;
-            t.hitPrimitive = 2u * record;
-            t.hitPlacement = NO_PLACEMENT;
-        }
-    }
+    if (HAS_SPHERES && !SPHERES_WAIT)
+        testSphere(t, ray, uintBitsToFloat(r.r0.xyz), leafRadius(r), record, isLeaf && (r.r0.w & RECORD_IS_SPHERE) != 0u);
+}
+
+/// Where spheres are few, a step does not test the one that it meets: that waits for this, after some steps.
+void testWaitingSphere(inout Traversal t, Ray ray) {
+    if (!SPHERES_WAIT) return;
+    const bool isThere = t.sphere != NO_PRIMITIVE;
+    const uint record = isThere ? t.sphere : 0u, row = RECORD_ROWS * record;
+    const vec3 center = uintBitsToFloat(ROW(recordRows, row).xyz);
+    testSphere(t, ray, center, uintBitsToFloat(ROW(recordRows, row + 3u).w), record, isThere);
+    t.sphere = NO_PRIMITIVE;
+    if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) endTraversal(t);
 }
 
 /// What a record is, by its word 3.
@@ -174,7 +187,11 @@ void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     // A ray that has passed surfaces begins at its origin again, and leaves out what lies before them.
     float begin = 0.0;
     if (HAS_ALPHA) begin = t.tMin;
-    const bool isLeaf = working && !kind.isNode && !kind.isPlacement;
+    const bool isSphere = SPHERES_WAIT && working && !kind.isNode && (r.r0.w & RECORD_IS_SPHERE) != 0u;
+    // The second one that is met stays where it is until the first one has been tested.
+    if (isSphere && t.sphere != NO_PRIMITIVE) working = false;
+    else if (isSphere) t.sphere = record;
+    const bool isLeaf = working && !isSphere && !kind.isNode && !kind.isPlacement;
     uint entered = 0u;
     if (!STEPS_BRANCH || kind.isNode) entered = enterChildren(r, ray, begin, t.tMax);
     if (!STEPS_BRANCH || isLeaf) testLeaf(t, ray, r, record, isLeaf);
@@ -187,7 +204,7 @@ void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     Group children = makeGroup(r.r0.w, entered);
     if (HAS_PLACEMENTS) children.word |= t.group.word & IN_WORLD;
     const Group after = select(descend, children, select(pop, newest, rest));
-    t.group = select(working || !HAS_PLACEMENTS, after, t.group); // what waits stays
+    t.group = select(working || !HAS_PLACEMENTS && !SPHERES_WAIT, after, t.group); // what waits stays
     if (HAS_PLACEMENTS) changeSpace(t, working && kind.isPlacement, record, r);
     if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) endTraversal(t);
 }

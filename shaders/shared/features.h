@@ -24,6 +24,8 @@
       "triangles", flag, "the intersection of rays and triangles") \
     F(4, bool, HAS_SPHERES, true, scene.hasSpheres, 1, \
       "spheres", flag, "the intersection of rays and spheres") \
+    F(67, bool, SPHERES_WAIT, false, !tuning.stepsBranch && spheresWait(scene), own, \
+      "spheres that wait", flag, "spheres that are tested after some steps, where most steps meet none") \
     F(45, bool, HAS_PLACEMENTS, false, scene.hasPlacements, own, \
       "instances", flag, "prototypes that are placed in the world: rays go into their space and back") \
     F(25, bool, LARGE_TREE, false, f[SPEC_HAS_PLACEMENTS] || scene.bvh.records.size() > gpu::SMALL_TREE_RECORDS, 1, \
@@ -176,7 +178,7 @@
     F(66, bool, LIGHT_THROUGH_GLASS, false, lightsThroughGlass(scene, settings), own, \
       "light samples through glass", flag, "rays of light samples that go on, bent, where they meet clear glass")
 
-#define SPEC_COUNT 67
+#define SPEC_COUNT 68
 
 #ifdef __cplusplus
 namespace stromboli {

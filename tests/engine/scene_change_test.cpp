@@ -248,17 +248,16 @@ TEST(SceneChange, WhatRaysVisitIsMeasuredOnce) {
     behind.position += 100.0 * camera.back;
     behind.back = -camera.back;
     fitToPicture(packed, *scene, behind, {});
-    EXPECT_EQ(packed.recordsOfRay, 0) << "the camera sees nothing";
+    EXPECT_FALSE(packed.ofRay.isKnown()) << "the camera sees nothing";
     fitToPicture(packed, *scene, camera, {});
-    const double records = packed.recordsOfRay;
-    EXPECT_GT(records, 3);
+    const VisitsOfRay visits = packed.ofRay;
+    EXPECT_GT(visits.records, 3);
     fitToPicture(packed, *scene, behind, {});
-    EXPECT_EQ(packed.recordsOfRay, records);
+    EXPECT_EQ(packed.ofRay, visits);
     KeptParts kept;
-    kept.recordsOfRay = 7;
-    EXPECT_EQ(buildScene(*scene, {}, {}, &kept).gpu.recordsOfRay, 7);
-    EXPECT_EQ(buildScene(*scene, {}, {}, nullptr, kUsualGatheredRows, &packed).gpu.recordsOfRay,
-              records);
+    kept.ofRay.records = 7;
+    EXPECT_EQ(buildScene(*scene, {}, {}, &kept).gpu.ofRay, kept.ofRay);
+    EXPECT_EQ(buildScene(*scene, {}, {}, nullptr, kUsualGatheredRows, &packed).gpu.ofRay, visits);
 }
 
 TEST(SceneChange, EnvironmentsThatCannotBeAreRefused) {

@@ -136,7 +136,7 @@ TEST(KernelFeatures, StepsFitTheRaysOfTheScene) {
     const Scene scene = oneTriangle({});
     GpuScene packed = packScene(scene, buildWideBvh(scene));
     const auto steps = [&](double records, PixelFilter filter) {
-        packed.recordsOfRay = records;
+        packed.ofRay.records = records;
         Estimator settings;
         settings.filter = filter;
         return kernelFeatures(packed, Camera{}, settings, tuning)[SPEC_TRAVERSAL_STEPS];
@@ -152,6 +152,23 @@ TEST(KernelFeatures, StepsFitTheRaysOfTheScene) {
     }
     tuning.stepsFitRays = false;
     EXPECT_EQ(steps(9, PixelFilter::Box), 5u);
+}
+
+/// Only where it is known that rays rarely meet one, and no device leaves out what no lane needs.
+TEST(KernelFeatures, SpheresWaitWhereTheyAreFew) {
+    DeviceTuning tuning;
+    Scene scene = oneTriangle({});
+    scene.spheres.push_back({{0, 0, 5}, 1, 0, 0});
+    GpuScene packed = packScene(scene, buildWideBvh(scene));
+    const auto wait = [&](const VisitsOfRay& visits) {
+        packed.ofRay = visits;
+        return kernelFeatures(packed, Camera{}, {}, tuning)[SPEC_SPHERES_WAIT] != 0;
+    };
+    EXPECT_FALSE(wait({}));
+    EXPECT_TRUE(wait({8, 0.2}));
+    EXPECT_FALSE(wait({8, 1}));
+    tuning.stepsBranch = true;
+    EXPECT_FALSE(wait({8, 0.2}));
 }
 
 /// Maps make shading normals of flat triangles, too, which then have none of their corners.

@@ -59,7 +59,7 @@ TEST_F(KernelTuningTest, RecordsOfARayAreKnownBeforehand) {
     VulkanBackend counting = backend({.countSteps = true});
     render(counting, settings_);
     const double visited = double(counting.steps().busy) / double(counting.counters().rays);
-    EXPECT_NEAR(recordsOfRay(scene_.bvh, camera_), visited, 0.2 * visited);
+    EXPECT_NEAR(visitsOfRay(scene_.bvh, camera_).records, visited, 0.2 * visited);
 }
 
 /// Steps that are asked for are those of all kernels.
@@ -94,6 +94,27 @@ TEST_F(KernelTuningTest, EverythingOnIsTheSamePicture) {
     VulkanBackend specialised = backend({}), everything = backend({.everythingOn = true});
     EXPECT_NE(specialised.features(), everything.features());
     EXPECT_TRUE(sameStatistics(render(specialised, settings_), render(everything, settings_)));
+}
+
+/// Spheres that wait to be tested are met all the same, also several in a row, and where a step
+/// meets none.
+TEST_F(KernelTuningTest, SpheresThatWaitAreMet) {
+    scenes::SceneMaker b;
+    b.scene = loaded_;
+    Random random(5);
+    const uint32_t blue = b.add(scenes::diffuse(0.4f)), shine = b.add(scenes::emissive(2));
+    for (int i = 0; i < 60; ++i)
+        b.sphere(
+            {random.uniform(-0.3f, 0.3f), random.uniform(0.1f, 0.9f), random.uniform(-0.3f, 0.3f)},
+            random.uniform(0.02f, 0.12f), i % 7 == 0 ? shine : blue);
+    const auto pictureWith = [&](double spheres) {
+        GpuScene packed = packScene(b.scene, buildWideBvh(b.scene));
+        packed.ofRay = {8, spheres};
+        VulkanBackend device(testDevice(), packed, camera_, settings_);
+        EXPECT_EQ(device.features()[SPEC_SPHERES_WAIT], spheres < 1 ? 1u : 0u);
+        return render(device, settings_);
+    };
+    EXPECT_TRUE(sameStatistics(pictureWith(0.1), pictureWith(2)));
 }
 
 TEST_F(KernelTuningTest, CountsStepsWithoutChangingThePicture) {

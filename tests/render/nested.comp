@@ -51,6 +51,7 @@ void traceToTheEnd(const Given given, inout PathState path, inout uint loopPasse
         const Ray prepared = makeRay(path.ray.origin, path.ray.direction);
         while (traversing(path.ray)) {
             traversalStep(path.ray, stack, prepared);
+            testWaitingSphere(path.ray, prepared);
             ++loopPasses;
         }
         const bool isUnderWay = goThroughMedium(given, path);
