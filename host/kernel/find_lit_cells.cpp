@@ -19,7 +19,7 @@ namespace stromboli {
 namespace {
 
 /// Rays of light that are traced; the first few tell whether it is worth to trace the others.
-constexpr size_t kFirstRays = 1024, kRays = 32768;
+constexpr size_t kFirstRays = 1024, kRays = 8192;
 /// A triangle is divided while a cell would have so many of them.
 constexpr double kRaysOfCell = 16;
 constexpr uint32_t kMostLevels = 6;
