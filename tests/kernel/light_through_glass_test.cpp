@@ -19,8 +19,8 @@ namespace {
 
 using namespace test;
 
-enum class Glass { None, Pane, Slab, Ball, Prism };
-enum class LampShape { Panel, Mesh, Sphere };
+enum class Glass { None, Pane, Slab, Ball, Prism, Globe };
+enum class LampShape { Panel, Mesh, Sphere, Large };
 
 struct GlassRoom {
     Glass glass = Glass::Pane;
@@ -49,11 +49,18 @@ void addGlass(scenes::SceneMaker& b, Glass glass) {
         b.quad({0.3f + slant, -1, -1}, {-slant, 2, 0}, z, solid);
     }
     if (glass == Glass::Ball) b.sphere({0.3f, 0, 0}, 0.4f, solid);
+    if (glass == Glass::Globe) { // about the spherical lamp
+        b.sphere({0.5f, 0.1f, 0.1f}, 0.45f, solid);
+        Material hollow = glassOf(MaterialKind::Dielectric);
+        hollow.ior = 1 / hollow.ior;
+        b.sphere({0.5f, 0.1f, 0.1f}, 0.42f, b.add(hollow));
+    }
 }
 
 void addLamp(scenes::SceneMaker& b, LampShape lamp) {
     const uint32_t shine = b.add(scenes::emissive(30));
     if (lamp == LampShape::Sphere) b.sphere({0.8f, 0.1f, 0.1f}, 0.1f, shine);
+    if (lamp == LampShape::Large) b.sphere({0.5f, 0.1f, 0.1f}, 0.35f, shine);
     if (lamp == LampShape::Panel) b.quad({0.9f, -0.1f, -0.2f}, {0, 0, 0.3f}, {0, 0.3f, 0}, shine);
     if (lamp == LampShape::Mesh)
         b.triangle({0.9f, -0.3f, -0.2f}, {0.9f, -0.1f, 0.3f}, {0.8f, 0.3f, 0}, shine);
@@ -190,6 +197,8 @@ TEST_F(LightThroughGlass, HasNoBias) {
     settings_.estimator.directLight = DirectLight::Lights;
     expectNoBias(roomWithGlass({.glass = Glass::Ball, .floor = Principled}),
                  "light samples alone, of glTF's materials");
+    // Many branches end at the lamp, and others begin at the glass that it is seen through.
+    expectNoBias(roomWithGlass({.glass = Glass::Globe, .lamp = LampShape::Large}), "a globe");
     // Paths that end with the pane, and those that have to be longer than most.
     settings_.estimator.directLight = DirectLight::Mis;
     settings_.estimator.maxBounces = 2;
