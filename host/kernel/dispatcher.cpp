@@ -176,10 +176,12 @@ void Dispatcher::count(const gpu::DispatchStatus& status) {
 namespace {
 
 /// Where lanes stop taking path rays. What is left has to do for one more surface with all its
-/// direct light samples: a pass or more for each.
-uint32_t softLimit(uint32_t hard, const gpu::Frame& frame) {
+/// direct light samples: a pass or more for each, and four times as much where they go through
+/// glass (MOST_PANES).
+uint32_t softLimit(uint32_t hard, const gpu::Frame& frame, const KernelFeatures& features) {
+    const uint32_t rays = features[SPEC_LIGHT_THROUGH_GLASS] ? 4 : 1;
     const uint32_t directSamples = frame.hemisphereSamples + frame.lightSamples;
-    return directSamples < hard / 32 ? hard / 2 : 1;
+    return rays * directSamples < hard / 32 ? hard / 2 : 1;
 }
 
 /// Iterations a dispatch may be given. Where threads share them, a fast one runs more of them in a
@@ -193,7 +195,7 @@ uint32_t paceLimit(uint32_t soft, const DeviceTuning& tuning) {
 PersistentDispatcher::PersistentDispatcher(const DispatchTarget& target, const PathKernel& kernel,
                                            const DispatchSettings& settings)
     : Dispatcher(target, kernel, settings), kernel_(kernel),
-      softIterations_(softLimit(hardIterations_, settings.frame)),
+      softIterations_(softLimit(hardIterations_, settings.frame, kernel.features())),
       pace_(settings.targetSeconds, paceLimit(softIterations_, settings.tuning)) {
     // No lane has an item, whatever its other words say.
     const std::vector<uint32_t> idle(

@@ -90,6 +90,8 @@ class Rays {
         const Material& m =
             scene_.materials[id < triangles ? scene_.triangles[id].material
                                             : scene_.spheres[id - triangles].material];
+        if (m.kind == MaterialKind::Principled)
+            return m.principled.isThin ? 1 : double(m.principled.ior);
         return m.kind == MaterialKind::ThinDielectric ? 1 : double(m.ior);
     }
 

@@ -101,9 +101,7 @@ bool isClearGlass(const Material& m) {
     case MaterialKind::Dielectric:
         return m.isSmooth();
     case MaterialKind::Principled:
-        return m.principled.roughness == 0 && m.principled.transmission >= 1 &&
-               m.principled.metallic <= 0 && m.principled.sheenColor == glm::vec3(0) &&
-               m.textures.empty();
+        return m.isSmooth() && m.textures.empty();
     default:
         return false;
     }

@@ -80,7 +80,8 @@ BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec
     case MaterialKind::Diffuse:
         return evaluateDiffuse(m, wi);
     case MaterialKind::Principled:
-        return evaluatePrincipled(m.principled, i.wo, i.entering, wi, i.coat);
+        return m.isSmooth() ? BsdfValue{}
+                            : evaluatePrincipled(m.principled, i.wo, i.entering, wi, i.coat);
     case MaterialKind::Conductor:
         return m.isSmooth() ? BsdfValue{} : evaluateFacetConductor(m, i.wo, wi, i.conventions);
     case MaterialKind::Dielectric:
@@ -107,7 +108,8 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
     case MaterialKind::Refraction:
         return sampleInterface(m, i, u.z);
     case MaterialKind::Principled:
-        return samplePrincipled(m.principled, i.wo, i.entering, u, i.coat);
+        return m.isSmooth() ? sampleClearPrincipled(m.principled, i.wo, i.entering, u.z)
+                            : samplePrincipled(m.principled, i.wo, i.entering, u, i.coat);
     case MaterialKind::Conductor:
         return m.isSmooth() ? sampleConductor(m, i.wo, i.conventions)
                             : sampleFacetConductor(m, i.wo, u, i.conventions);
@@ -219,6 +221,13 @@ BsdfSample ofMixture(BsdfSample sample, const SurfacePoint& s,
     return sample;
 }
 
+/// Whether some lobe is too narrow for light samples to find: their noise would have no bound that
+/// samples reach.
+bool isNarrow(const PrincipledParameters& p) {
+    constexpr double kNarrow = 0.5; // glTF's roughness: facets within 14 degrees
+    return p.roughness < kNarrow || (p.clearcoat > 0 && p.clearcoatRoughness < kNarrow);
+}
+
 } // namespace
 
 Frame surfaceFrame(const SurfacePoint& s) {
@@ -277,7 +286,8 @@ uint32_t lobesOf(const Material& material) {
     case MaterialKind::Refraction:
         return gpu::LOBE_DELTA_TRANSMISSION;
     case MaterialKind::Principled:
-        return principledLobes(material.principled);
+        return isSmooth ? gpu::LOBE_DELTA_REFLECTION | gpu::LOBE_DELTA_TRANSMISSION
+                        : principledLobes(material.principled);
     case MaterialKind::Conductor:
         return isSmooth ? gpu::LOBE_DELTA_REFLECTION : gpu::LOBE_GLOSSY_REFLECTION;
     case MaterialKind::Dielectric:

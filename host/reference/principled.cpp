@@ -2,6 +2,7 @@
 
 #include "host/reference/microfacet.hpp"
 #include "host/reference/sampling.hpp"
+#include "host/reference/sheen.hpp"
 #include "host/reference/thin_film.hpp"
 #include "shaders/shared/albedo_fits.h"
 
@@ -70,26 +71,6 @@ dvec3 turned(const dvec3& w, double angle) {
             std::sin(angle) * w.x + std::cos(angle) * w.y, w.z};
 }
 
-/// Estevez and Kulla 2017, equation 3 and table 1.
-double sheenLambda(double cosine, double alpha) {
-    const double t = (1 - alpha) * (1 - alpha);
-    const auto l = [&](double x) {
-        const double a = t * 25.3245 + (1 - t) * 21.5473, b = t * 3.32435 + (1 - t) * 3.82987;
-        const double c = t * 0.16801 + (1 - t) * 0.19823, d = t * -1.27393 + (1 - t) * -1.97760;
-        return a / (1 + b * std::pow(x, c)) + d * x + t * -4.85967 + (1 - t) * -4.32054;
-    };
-    return std::exp(cosine < 0.5 ? l(cosine) : 2 * l(0.5) - l(1 - cosine));
-}
-
-double sheen(double alpha, const dvec3& wo, const dvec3& wi) {
-    const dvec3 h = glm::normalize(wo + wi);
-    const double d = (2 + 1 / alpha) * std::pow(std::hypot(h.x, h.y), 1 / alpha) / (2 * kPi);
-    const double least = gpu::LEAST_SHEEN_COSINE;
-    const double cosO = std::clamp(wo.z, least, 1.0), cosI = std::clamp(wi.z, least, 1.0);
-    const double g = 1 / (1 + sheenLambda(cosO, alpha) + sheenLambda(cosI, alpha));
-    return d * g / (4 * cosO * cosI);
-}
-
 /// A direction's value f |cos| and density by one of the lobes alone.
 struct Part {
     dvec3 value{0.0};
@@ -103,6 +84,7 @@ class Layers {
 
     BsdfValue evaluate(const dvec3& wi) const;
     BsdfSample sample(const dvec3& u) const;
+    BsdfSample sampleOnPlane(double u) const; ///< of clear glass
 
   private:
     struct Facet {
@@ -178,6 +160,7 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering, co
     }
     albedo_ = gpu::ggxAlbedo(wo.z, ggx_.alphaY);
     meanAlbedo_ = gpu::ggxMeanAlbedo(ggx_.alphaY);
+    if (p.isClear()) albedo_ = meanAlbedo_ = 1; // whose facets are one plane
     const double weight = gpu::schlickShare(wo.z, ggx_.alphaY);
     // At the cosine whose Schlick weight is the facets' mean one.
     const double cosine = 1 - std::pow(std::clamp(weight, 0.0, 1.0), 0.2);
@@ -363,6 +346,21 @@ BsdfSample Layers::sample(const dvec3& u) const {
     return s;
 }
 
+BsdfSample Layers::sampleOnPlane(double u) const {
+    const Facet facet = facetAt(wo_.z, 1);
+    BsdfSample s;
+    const bool passes = u >= facet.reflects;
+    s.chosen = passes ? 1 - facet.reflects : facet.reflects;
+    s.lobe = passes ? gpu::LOBE_DELTA_TRANSMISSION : gpu::LOBE_DELTA_REFLECTION;
+    s.weight = (passes ? facet.transmitted : facet.reflected) / s.chosen;
+    s.direction = passes ? -wo_ : dvec3(-wo_.x, -wo_.y, wo_.z);
+    if (passes && !thin_) {
+        const double cosine = dielectric(std::min(wo_.z, 1.0), etas_.y).cosTransmitted;
+        s.direction = {-etas_.y * wo_.x, -etas_.y * wo_.y, -cosine};
+    }
+    return s;
+}
+
 } // namespace
 
 uint32_t principledLobes(const PrincipledParameters& p) {
@@ -383,9 +381,10 @@ BsdfSample samplePrincipled(const PrincipledParameters& p, const dvec3& wo, bool
     return Layers(p, wo, entering, coat).sample(u);
 }
 
-bool isNarrow(const PrincipledParameters& p) {
-    constexpr double kNarrow = 0.5; // glTF's roughness: facets within 14 degrees
-    return p.roughness < kNarrow || (p.clearcoat > 0 && p.clearcoatRoughness < kNarrow);
+BsdfSample sampleClearPrincipled(const PrincipledParameters& p, const dvec3& wo, bool entering,
+                                 double u) {
+    if (!(wo.z > 0)) return {};
+    return Layers(p, wo, entering, {0, 0, 1}).sampleOnPlane(u);
 }
 
 dvec3 absorption(const PrincipledParameters& p) {

@@ -19,9 +19,10 @@ BsdfValue evaluatePrincipled(const PrincipledParameters& p, const glm::dvec3& wo
 BsdfSample samplePrincipled(const PrincipledParameters& p, const glm::dvec3& wo, bool entering,
                             const glm::dvec3& u, const glm::dvec3& coat = {0, 0, 1});
 
-/// Whether some lobe is too narrow for light samples to find: their noise would have no bound that
-/// samples reach.
-bool isNarrow(const PrincipledParameters& p);
+/// Of clear glass, whose facets are one plane (PrincipledParameters::isClear). u: in [0, 1),
+/// chooses between reflection and transmission.
+BsdfSample sampleClearPrincipled(const PrincipledParameters& p, const glm::dvec3& wo, bool entering,
+                                 double u);
 
 /// Per metre, behind a surface that light goes through into a volume; 0 where it does not.
 glm::dvec3 absorption(const PrincipledParameters& p);

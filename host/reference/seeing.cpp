@@ -23,8 +23,8 @@ bool isSeenThrough(const Material& m) {
 /// radiance.
 glm::dvec3 tintOf(const Material& m, const BsdfSample& next) {
     const bool isBlack = next.weight == glm::dvec3(0.0);
-    return next.lobe == gpu::LOBE_DELTA_TRANSMISSION && !isBlack ? glm::dvec3(m.transmittance)
-                                                                 : next.weight;
+    if (next.lobe != gpu::LOBE_DELTA_TRANSMISSION || isBlack) return next.weight;
+    return m.kind == MaterialKind::Principled ? m.principled.baseColor : m.transmittance;
 }
 
 /// The colour of a surface in white light, apart from what its gloss adds.

@@ -26,6 +26,12 @@ glm::vec3 PrincipledParameters::absorption() const {
            attenuationDistance;
 }
 
+bool PrincipledParameters::isClear() const {
+    return transmission >= 1 && roughness <= 0 && metallic <= 0 && anisotropy <= 0 &&
+           clearcoat <= 0 && sheenColor == glm::vec3(0) && iridescence <= 0 && dispersion <= 0 &&
+           diffuseTransmission <= 0;
+}
+
 float PrincipledParameters::indexSpread() const {
     // The definition of the Abbe number, (n_d - 1) / (n_F - n_C), of which dispersion is 20 over.
     return isThin || ior <= 1 ? 0 : (ior - 1) * dispersion / 40;
@@ -57,6 +63,7 @@ bool Material::isDelta() const {
         return true;
     case MaterialKind::Conductor:
     case MaterialKind::Dielectric:
+    case MaterialKind::Principled:
         return isSmooth();
     default:
         return false;
@@ -79,6 +86,10 @@ bool Material::entersVolume() const {
 }
 
 bool Material::isSmooth() const {
+    if (kind == MaterialKind::Principled)
+        return principled.isClear() && std::ranges::none_of(textures, [](const TextureUse& t) {
+                   return t.slot == TextureSlot::Transmission;
+               });
     const glm::vec2 stated = statedAlpha(*this);
     return !(std::max(stated.x, stated.y) >= leastAlpha(*this));
 }

@@ -75,6 +75,8 @@ struct PrincipledParameters {
     float filmIor = 1.3f, filmThickness = 400, filmSpan = 0;
 
     bool passesDiffusely() const { return diffuseTransmission > 0 && metallic < 1; }
+    /// A plane that reflects light or lets it through, and nothing else: clear glass.
+    bool isClear() const;
     /// Half the difference between the indices of blue and red light, `ior` being that of green, by
     /// the volume's dispersion; 0 where there is none.
     float indexSpread() const;
@@ -183,7 +185,8 @@ struct Material {
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
     /// True where no light sample can ever contribute: the BSDF is a delta distribution.
     bool isDelta() const;
-    /// Whether the interface of a conductor, a dielectric or plastic is a plane.
+    /// Whether the interface of a conductor, a dielectric or plastic is a plane; of the principled
+    /// model, whether it is clear glass all over.
     bool isSmooth() const;
     bool hasReliefRules() const { return reliefRule != ReliefRule::Bend || reliefShadows; }
     /// Both alphas of the facets that light meets, where the interface is not smooth.

@@ -168,7 +168,7 @@ Closures closuresOf(Material m, Incidence i) {
     c.diffuseShare = c.throughShare = c.sheenShare = c.coatShare = c.coat = 0.0;
     const bool isPrincipled = hasClosure(m, RECIPE_PRINCIPLED), isBurley = hasClosure(m, RECIPE_BURLEY);
     if (!isPrincipled && !isBurley) stateClosures(c, m, statedParameters(m), i);
-    if (isPrincipled) principledClosures(c, principledParameters(m), i);
+    if (isPrincipled) principledClosures(c, principledParameters(m), i, hasClosure(m, INTERFACE_IS_SMOOTH));
     if (isBurley) burleyClosures(c, m, burleyParameters(m), i);
     return c;
 }

@@ -43,10 +43,11 @@ vec3 givenByMetal(PrincipledInterface l) {
 float meanCosine(float weight) { return 1.0 - pow(clamp(weight, 0.0, 1.0), 0.2); }
 
 /// Shares are of all light; what a layer gets from those above it is in the weights.
-void principledClosures(inout Closures c, PrincipledParameters p, Incidence i) {
+/// isSmooth: clear glass, of which the facets are one plane.
+void principledClosures(inout Closures c, PrincipledParameters p, Incidence i, bool isSmooth) {
     PrincipledInterface l;
     const float mu = i.wo.z;
-    c.isSmooth = false;
+    c.isSmooth = isSmooth;
     c.facets = FacetShape(facetAlpha(p), false, false);
     if (sceneHas(FACETS_ARE_TURNED)) c.grain = vec2(cos(p.anisotropyRotation), sin(p.anisotropyRotation));
     const bool isThin = p.spread < 0.0;
@@ -90,6 +91,7 @@ void principledClosures(inout Closures c, PrincipledParameters p, Incidence i) {
     c.interfaceWeight = max(left, 0.0);
     l.albedo = ggxAlbedo(mu, c.facets.alpha.y);
     l.meanAlbedo = ggxMeanAlbedo(c.facets.alpha.y);
+    if (isSmooth) l.albedo = l.meanAlbedo = 1.0;
     const float weight = schlickShare(mu, c.facets.alpha.y);
     vec3 ofDielectric = schlick(l.f0, l.f90, weight), ofMetal = schlick(l.baseColor, 1.0, weight);
     if (HAS_IRIDESCENCE) {

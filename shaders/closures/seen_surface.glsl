@@ -15,6 +15,7 @@ bool isSeenThrough(Material m) {
 /// to radiance by the ratio of the indices.
 vec3 tintOf(Material m, BsdfSample b) {
     if (b.lobe != LOBE_DELTA_TRANSMISSION || !(largestComponent(b.weight) > 0.0)) return b.weight;
+    if (hasClosure(m, RECIPE_PRINCIPLED)) return principledParameters(m).baseColor;
     return statedParameters(m).color;
 }
 

@@ -4,6 +4,10 @@
 // direction in which they have left the last surface that scatters light into many. Whatever is asked of that direction, it
 // is asked of both, so that their weights add up to 1.
 
+/// Surfaces of glass that a light sample goes through at most; behind more, bounces find its light alone. So a dispatch
+/// is not longer than it may be (softLimit() of host/kernel/dispatcher.cpp).
+const uint MOST_PANES = 12u;
+
 /// Glass that light goes through in one direction, whatever else the surface does.
 bool isClear(Material m) { return LIGHT_THROUGH_GLASS && (lobesOf(m) & LOBE_DELTA_TRANSMISSION) != 0u; }
 

@@ -205,7 +205,8 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     if (SEES) path.throughput *= tintOf(path.material, b);
     else path.throughput *= b.weight;
     if (isThroughGlass(path)) {
-        path.throughput *= b.lobe == LOBE_DELTA_TRANSMISSION ? b.pdf : 0.0; // not by chance
+        const bool goesThrough = b.lobe == LOBE_DELTA_TRANSMISSION && path.bounce - path.glass.bounce <= MOST_PANES;
+        path.throughput *= goesThrough ? b.pdf : 0.0; // not by chance
         roulette = 0.0;
         mixtureWeight = 1.0;
     }

@@ -59,7 +59,7 @@ vec3 directionToSky(PathState path) { return keepsDirection(path) ? path.glass.d
 bool departs(const Frame frame, inout PathState path, BsdfSample b) {
     if (!LIGHT_THROUGH_GLASS) return true;
     if (path.glass.isUnderWay) return false;
-    if (b.lobe == LOBE_DELTA_TRANSMISSION && path.glass.isFromLit) {
+    if (b.lobe == LOBE_DELTA_TRANSMISSION && path.glass.isFromLit && path.glass.panes < MOST_PANES) {
         ++path.glass.panes;
         return false;
     }

@@ -94,11 +94,13 @@ SHARED_CONST uint FACETS_BITS = FACETS_ARE_BECKMANN | FACETS_ARE_SEPARABLE;
     F(Plastic, true, CLOSURE_BASE | CLOSURE_INTERFACE | CLOSURE_LAYERS | INTERFACE_IS_DIELECTRIC | plane | reflects) \
     F(Plastic, isSmooth, LOBE_DIFFUSE_REFLECTION) \
     F(Plastic, m.isNonlinear, BASE_IS_NONLINEAR) \
-    F(Principled, true, RECIPE_PRINCIPLED | CLOSURE_BASE | CLOSURE_INTERFACE | LOBE_GLOSSY_REFLECTION) \
+    F(Principled, true, RECIPE_PRINCIPLED | CLOSURE_INTERFACE | reflects) \
+    F(Principled, isSmooth, INTERFACE_IS_SMOOTH) \
+    F(Principled, !isSmooth, CLOSURE_BASE) \
     F(Principled, m.principled.clearcoat > 0, CLOSURE_COAT) \
     F(Principled, m.principled.sheenColor != glm::vec3(0), CLOSURE_SHEEN) \
     F(Principled, m.principled.anisotropy > 0, FACETS_ARE_TURNED) \
-    F(Principled, transmits(m), LOBE_GLOSSY_TRANSMISSION) \
+    F(Principled, transmits(m), passes) \
     F(Principled, transmits(m) && m.principled.isThin, INTERFACE_IS_THIN) \
     F(Principled, passesDiffusely(m), LOBE_DIFFUSE_TRANSMISSION | LOBE_GLOSSY_TRANSMISSION) \
     F(Principled, refracts(m), INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC) \
@@ -207,7 +209,8 @@ SHARED_CONST uint MOST_PARAMETER_ROWS = 8u;
 /// A scene's materials have the row where its closures have one of these bits; row 1 they always have. Row 7
 /// is there for LOBE_DIFFUSE_TRANSMISSION, row 8 for HAS_IRIDESCENCE.
 SHARED_FUNCTION uint closuresWithRow(uint row) {
-    const uint indices = INTERFACE_IS_CONDUCTOR | CLOSURE_LAYERS | GLOSSY_LOBES;
+    const uint indices =
+        INTERFACE_IS_CONDUCTOR | CLOSURE_LAYERS | GLOSSY_LOBES | RECIPE_PRINCIPLED | RECIPE_BURLEY;
     if (row == 2u) return indices | INTERFACE_IS_DIELECTRIC;
     if (row == 3u) return indices;
     if (row == 4u) return RECIPE_PRINCIPLED | RECIPE_BURLEY;

@@ -154,5 +154,38 @@ TEST(Principled, IsContinuousDownToAMirror) {
     EXPECT_NEAR(mirror.value.x / mirror.pdf, 1, 0.005);
 }
 
+/// Clear glass about a volume is a dielectric between two planes; a sheet reflects by Schlick's
+/// formula, and lets the rest through, straight on.
+TEST(Principled, ClearGlassIsADielectric) {
+    Material clear, plain;
+    clear.kind = MaterialKind::Principled, plain.kind = MaterialKind::Dielectric;
+    clear.principled = {.baseColor = {0.9f, 0.7f, 0.5f}, .metallic = 0, .roughness = 0};
+    clear.principled.transmission = 1, clear.principled.isThin = false;
+    plain.transmittance = clear.principled.baseColor;
+    SurfacePoint a, b;
+    a.material = &clear, b.material = &plain;
+    for (const double mu : {0.05, 0.3, 0.7, 1.0})
+        for (const bool isOutside : {true, false})
+            for (const double u : {0.001, 0.999}) {
+                a.wo = b.wo = direction(mu, 0.4);
+                a.outside = b.outside = isOutside;
+                const BsdfSample s = sampleBsdf(a, {0.5, 0.5, u}, {}),
+                                 t = sampleBsdf(b, {0.5, 0.5, u}, {});
+                EXPECT_EQ(s.lobe, t.lobe) << mu << ' ' << isOutside << ' ' << u;
+                EXPECT_LT(glm::length(s.direction - t.direction), 1e-6);
+                EXPECT_LT(glm::length(s.weight - t.weight), 1e-6);
+                EXPECT_EQ(evaluateBsdf(a, t.direction, {}).pdf, 0);
+            }
+    clear.principled.isThin = true;
+    const double mu = 0.3, mirrored = 0.04 + 0.96 * std::pow(1 - mu, 5);
+    a.wo = direction(mu, 0.4);
+    const BsdfSample on = sampleBsdf(a, {0.5, 0.5, 0.999}, {});
+    EXPECT_EQ(on.lobe, gpu::LOBE_DELTA_TRANSMISSION);
+    EXPECT_LT(glm::length(on.direction + a.wo), 1e-12);
+    EXPECT_LT(glm::length(on.weight * on.chosen -
+                          (1 - mirrored) * glm::dvec3(clear.principled.baseColor)),
+              1e-6);
+}
+
 } // namespace
 } // namespace stromboli::reference

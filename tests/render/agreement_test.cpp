@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace stromboli {
@@ -32,10 +33,9 @@ RenderSettings smallSettings(uint32_t samples) {
     return s;
 }
 
-void expectAgreement(const vulkan::Device& device, const Scene& scene, const std::string& name,
-                     const RenderSettings& settings) {
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
-                                     settings.area.height, framingOf(settings.estimator));
+/// Returns the reference's picture.
+Film expectAgreement(const vulkan::Device& device, const Scene& scene, const std::string& name,
+                     const RenderSettings& settings, const Camera& camera) {
     const Film onDevice = renderOnDevice(device, scene, camera, settings);
     ReferenceBackend reference(scene, camera, settings);
     const Film onHost = render(reference, settings);
@@ -45,6 +45,14 @@ void expectAgreement(const vulkan::Device& device, const Scene& scene, const std
     EXPECT_TRUE(result.agree()) << name << "\n" << formatCheck(result);
     EXPECT_GE(result.fractionPassing, 0.9975);
     EXPECT_EQ(result.rejectedA, 0u);
+    return onHost;
+}
+
+void expectAgreement(const vulkan::Device& device, const Scene& scene, const std::string& name,
+                     const RenderSettings& settings) {
+    expectAgreement(device, scene, name, settings,
+                    makeCamera(scene, CameraChoice::Automatic, settings.area.width,
+                               settings.area.height, framingOf(settings.estimator)));
 }
 
 void expectAgreement(const vulkan::Device& device, const std::filesystem::path& file,
@@ -67,6 +75,15 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(allScenes()), name
 /// The bundled glTF scene of which the reference knows its own error in so many samples.
 TEST(GltfAgreement, WithTheReference) {
     expectAgreement(testDevice(), readScene("texture_chart"), "texture_chart", smallSettings(64));
+}
+
+/// A box is seen from outside where nobody says another thing.
+const Camera kInTheRoom = lookingAt({0, 1.6, 1.95}, {0, 1.3, 0}, 1.2);
+
+void expectAgreementInTheRoom(const Scene& scene, const std::string& name) {
+    const Film onHost = expectAgreement(testDevice(), scene, name, smallSettings(64), kInTheRoom);
+    const auto isLit = [](const PixelStatistics& p) { return p.mean.y > 0; };
+    EXPECT_TRUE(std::ranges::all_of(onHost.pixels, isLit)) << name;
 }
 
 /// Spheres of principled materials of all kinds in a lit room.
@@ -119,7 +136,27 @@ Scene principledRoom() {
 }
 
 TEST(PrincipledAgreement, WithTheReference) {
-    expectAgreement(testDevice(), principledRoom(), "principled", smallSettings(64));
+    expectAgreementInTheRoom(principledRoom(), "principled");
+}
+
+/// Clear glass of glTF's model: a sheet, and a volume that absorbs.
+TEST(PrincipledAgreement, WithTheReferenceInClearGlass) {
+    scenes::SceneMaker b;
+    const auto add = [&](bool isThin) {
+        Material m;
+        m.kind = MaterialKind::Principled;
+        m.principled = {.baseColor = {0.9f, 0.7f, 0.5f}, .metallic = 0, .roughness = 0};
+        m.principled.transmission = 1, m.principled.isThin = isThin;
+        m.principled.specularColor = {1, 0.5f, 0.8f}, m.principled.specular = 0.9f;
+        m.principled.attenuationColor = {0.3f, 0.8f, 0.5f};
+        m.principled.attenuationDistance = 0.3f;
+        return b.add(m);
+    };
+    b.box({-2, 0, -2}, {2, 3, 2}, b.add(scenes::diffuse(0.6f)), true);
+    b.quad({-1.5f, 2.9f, -1.5f}, {3, 0, 0}, {0, 0, 3}, b.add(scenes::emissive(1)));
+    b.quad({-1.5f, 0.2f, 0.3f}, {1.4f, 0, 0.4f}, {0, 2, 0}, add(true));
+    b.sphere({0.7f, 0.8f, 0}, 0.6f, add(false));
+    expectAgreementInTheRoom(b.scene, "clear");
 }
 
 /// One scene in every mode of the estimator.
