@@ -2,8 +2,6 @@
 
 #include "host/kernel/lamp_light.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -74,7 +72,7 @@ class Rays {
                        const TraversalHit& hit) const {
         TraversalRay ray;
         const bool isTriangle = cornersAt(packed_.bvh, hit).has_value();
-        ray.origin = glm::vec3(point + 0x1p-20 * (1 + glm::length(point)) * n);
+        ray.origin = glm::vec3(point + 0x1p-20 * (hit.t + glm::length(point)) * n);
         ray.direction = glm::vec3(d);
         if (isTriangle) ray.skipPrimitive = hit.primitive;
         return ray;

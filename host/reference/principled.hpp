@@ -19,8 +19,8 @@ BsdfValue evaluatePrincipled(const PrincipledParameters& p, const glm::dvec3& wo
 BsdfSample samplePrincipled(const PrincipledParameters& p, const glm::dvec3& wo, bool entering,
                             const glm::dvec3& u, const glm::dvec3& coat = {0, 0, 1});
 
-/// Of clear glass, whose facets are one plane (PrincipledParameters::isClear). u: in [0, 1),
-/// chooses between reflection and transmission.
+/// Clear glass, which is a plane (PrincipledParameters::isClear). u: in [0, 1), chooses between
+/// reflection and transmission.
 BsdfSample sampleClearPrincipled(const PrincipledParameters& p, const glm::dvec3& wo, bool entering,
                                  double u);
 

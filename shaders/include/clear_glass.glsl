@@ -8,7 +8,8 @@
 /// is not longer than it may be (softLimit() of host/kernel/dispatcher.cpp).
 const uint MOST_PANES = 12u;
 
-/// Glass that light goes through in one direction, whatever else the surface does.
+/// Glass that light goes through in one direction, whatever else the surface does. Where it is partly not there, rays of
+/// light samples pass it as they pass all that is, and no more.
 bool isClear(Material m) { return LIGHT_THROUGH_GLASS && (lobesOf(m) & LOBE_DELTA_TRANSMISSION) != 0u; }
 
 /// What is known of a ray since it has left a surface that takes light samples.
@@ -17,7 +18,7 @@ struct ThroughGlass {
     bool isFromLit; ///< the path ray: light samples were taken there
     uint panes;     ///< surfaces of glass that the path ray has gone through since
 
-    // Of the last light sample:
+    // What is known of the last light sample:
     uint light;        ///< as LightEntry::light
     vec3 share;        ///< what it brings of each radiance that it finds; 0: of what no ray finds
     bool isUnderWay;   ///< it is on its way through glass, and the path waits at its surface:

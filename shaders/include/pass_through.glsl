@@ -24,6 +24,7 @@ bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, f
     const float opacity = isStraight ? opacityForCamera(hit, stated) : stated;
     if (isToLight(path.phase)) {
         path.directValue *= 1.0 - opacity;
+        if (LIGHT_THROUGH_GLASS && opacity < 1.0) path.glass.share *= 1.0 - opacity;
         if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return false;
     } else if (hitNumber(hitWordsOfPath(frame, path), 0u) < opacity) {
         return false;

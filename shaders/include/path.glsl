@@ -128,7 +128,9 @@ void arrive(const Given given, inout PathState path) {
     if (isSample) arriveThroughGlass(path, light, share);
     else if (RECORDS)
         recordArrival(path, light, share, 1.0 - (ROULETTE == ROULETTE_FIXED ? given.frame.terminationProbability : 0.0), aimed);
-    if (isSample && !isClear(path.material)) return;
+    const bool isGlass = isClear(path.material) && (!HAS_ALPHA || path.found.opacity >= 1.0);
+    if (isSample && !isGlass) return;
+    if (LIGHT_THROUGH_GLASS && !isGlass) path.glass.isFromLit = false;
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
     if (!inMedium) {
         faceForward(path.surface);

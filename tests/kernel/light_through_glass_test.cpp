@@ -29,6 +29,8 @@ struct GlassRoom {
     float alpha = 0;      ///< of the floor's facets
     bool isGltfs = false; ///< the pane or slab is of glTF's model
     int panes = 1;        ///< one behind the other
+    float opacity = 1;    ///< of the pane
+    bool hasVeil = false; ///< something half there before the glass
 };
 
 Material glassOf(MaterialKind kind) {
@@ -61,6 +63,10 @@ void addGlass(scenes::SceneMaker& b, const GlassRoom& room) {
         b.add(room.isGltfs ? gltfsGlass(false) : glassOf(MaterialKind::Dielectric));
     Material pane = room.isGltfs ? gltfsGlass(true) : glassOf(MaterialKind::ThinDielectric);
     if (room.panes > 1) pane.transmittance = glm::vec3(1);
+    if (room.opacity < 1) pane.alphaMode = AlphaMode::Blend, pane.opacity = room.opacity;
+    Material veil = scenes::diffuse(0.5f);
+    veil.alphaMode = AlphaMode::Blend, veil.opacity = 0.4f;
+    if (room.hasVeil) b.quad({0.1f, -1, -1}, y, z, b.add(veil));
     const uint32_t sheet = b.add(pane);
     for (int i = 0; glass == Glass::Pane && i < room.panes; ++i)
         b.quad({0.2f + 0.04f * float(i), -1, -1}, y, z, sheet);
@@ -226,6 +232,9 @@ TEST_F(LightThroughGlass, HasNoBias) {
     settings_.estimator.directLight = DirectLight::Mis;
     settings_.estimator.maxBounces = 2;
     expectNoBias(roomWithGlass({.glass = Glass::Slab}), "few bounces");
+    settings_.estimator.maxBounces = 5;
+    expectNoBias(roomWithGlass({.glass = Glass::Slab, .hasVeil = true}), "behind a veil");
+    expectNoBias(roomWithGlass({.panes = 2, .opacity = 0.5f}), "panes that are half there");
     settings_.estimator.maxBounces = 16;
     expectNoBias(roomWithGlass({.panes = 12}), "as many panes as light samples go through");
     expectNoBias(roomWithGlass({.panes = 13}), "more");
@@ -234,7 +243,7 @@ TEST_F(LightThroughGlass, HasNoBias) {
     expectNoBias(roomWithGlass({}), "from the third bounce on");
 }
 
-/// Of the sky, as light samples find it by its picture, and where they aim at the window.
+/// The sky, as light samples find it by its picture, and where they aim at the window.
 TEST_F(LightThroughGlass, OfTheSkyHasNoBias) {
     view_ = kGlazedView;
     settings_.budget.mostSamplesPerPixel = 256;
