@@ -39,19 +39,17 @@ MaterialPoint askedPoint(PathState path) {
 void finishShadowRay(const Frame frame, inout PathState path) {
     if (emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE)
         path.directValue *= emissionFactorOf(path.found);
+    path.phase = PHASE_DIRECT;
+    const bool mayBeGlass = LIGHT_THROUGH_GLASS && (HAS_BLENDS || isClear(path.found.parameters));
     if (path.ray.hitPrimitive == NO_PRIMITIVE) {
         const vec3 light = limited(path, path.throughput * path.directValue);
         path.radiance += light;
         if (RECORDS) recordArrivedLight(path, light);
+    } else if (mayBeGlass && dot(path.glass.share, vec3(1.0)) > 0.0) {
+        enterGlass(path);
     } else {
-        const bool mayBeGlass = HAS_BLENDS && LIGHT_THROUGH_GLASS || isClear(path.found.parameters);
-        if (mayBeGlass && dot(path.glass.share, vec3(1.0)) > 0.0) {
-            enterGlass(path);
-            return;
-        }
         noteShadow(frame, path, path.ray.direction);
     }
-    path.phase = PHASE_DIRECT;
 }
 
 void finishHemisphereRay(const Frame frame, inout PathState path) {

@@ -30,15 +30,16 @@ void arriveThroughGlass(inout PathState path, vec3 light, float share) {
 
 /// Goes back to the surface that the light sample was taken at, once its way has ended.
 void comeBackFromGlass(const Frame frame, inout PathState path) {
-    if (!isThroughGlass(path) || path.phase != PHASE_ENDED) return;
-    path.glass.isUnderWay = false;
-    path.surface = path.glass.surface;
-    path.material = path.glass.material;
-    path.throughput = path.glass.throughput;
-    path.bounce = path.glass.bounce;
-    path.filling = path.glass.filling;
-    path.phase = PHASE_DIRECT;
-    if (!path.glass.hasArrived) noteShadow(frame, path, path.glass.direction);
+    if (isThroughGlass(path) && path.phase == PHASE_ENDED) {
+        path.glass.isUnderWay = false;
+        path.surface = path.glass.surface;
+        path.material = path.glass.material;
+        path.throughput = path.glass.throughput;
+        path.bounce = path.glass.bounce;
+        path.filling = path.glass.filling;
+        path.phase = PHASE_DIRECT;
+        if (!path.glass.hasArrived) noteShadow(frame, path, path.glass.direction);
+    }
 }
 
 /// The path ray has come through glass from a surface that takes light samples, or is one's.
@@ -57,14 +58,15 @@ vec3 directionToSky(PathState path) { return keepsDirection(path) ? path.glass.d
 /// Remembers what the weight of light depends on that this bounce finds behind glass. False: it goes through glass, and
 /// what is remembered of the last bounce holds.
 bool departs(const Frame frame, inout PathState path, BsdfSample b) {
-    if (!LIGHT_THROUGH_GLASS) return true;
-    if (path.glass.isUnderWay) return false;
-    if (b.lobe == LOBE_DELTA_TRANSMISSION && path.glass.isFromLit && path.glass.panes < MOST_PANES) {
-        ++path.glass.panes;
-        return false;
+    bool goesThrough = false;
+    if (LIGHT_THROUGH_GLASS) {
+        const bool isGlass = b.lobe == LOBE_DELTA_TRANSMISSION && path.glass.isFromLit && path.glass.panes < MOST_PANES;
+        goesThrough = path.glass.isUnderWay || isGlass;
+        if (!goesThrough) {
+            path.glass.direction = b.direction;
+            path.glass.isFromLit = !isDelta(b.lobe) && countedBounces(path.bounce, path.uncounted) >= frame.minBounce;
+        }
+        if (!path.glass.isUnderWay) path.glass.panes = isGlass ? path.glass.panes + 1u : 0u;
     }
-    path.glass.panes = 0u;
-    path.glass.direction = b.direction;
-    path.glass.isFromLit = !isDelta(b.lobe) && countedBounces(path.bounce, path.uncounted) >= frame.minBounce;
-    return true;
+    return !goesThrough;
 }

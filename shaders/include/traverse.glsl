@@ -172,6 +172,9 @@ void changeSpace(inout Traversal t, bool enters, uint record, Record r) {
     t.waits = t.waits || enters || leaves;
 }
 
+/// Whether a ray may wait with the group that it has.
+const bool GROUPS_STAY = HAS_PLACEMENTS || SPHERES_WAIT;
+
 /// Visits the next record. Where lanes are those of SIMD registers, both sides of an `if` are executed, and a branch
 /// costs more than it saves: a ray that is done visits the root to no effect (docs/theory/kernel.md, "What llvmpipe does").
 /// STEPS_BRANCH: a GPU leaves out the half of a step that none of its lanes needs.
@@ -187,10 +190,14 @@ void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     // A ray that has passed surfaces begins at its origin again, and leaves out what lies before them.
     float begin = 0.0;
     if (HAS_ALPHA) begin = t.tMin;
-    const bool isSphere = SPHERES_WAIT && working && !kind.isNode && (r.r0.w & RECORD_IS_SPHERE) != 0u;
-    // The second one that is met stays where it is until the first one has been tested.
-    if (isSphere && t.sphere != NO_PRIMITIVE) working = false;
-    else if (isSphere) t.sphere = record;
+    bool isSphere = false;
+    if (SPHERES_WAIT) {
+        isSphere = working && !kind.isNode && (r.r0.w & RECORD_IS_SPHERE) != 0u;
+        // The second one that is met stays where it is until the first one has been tested.
+        const bool isFirst = t.sphere == NO_PRIMITIVE;
+        t.sphere = isSphere && isFirst ? record : t.sphere;
+        working = working && (!isSphere || isFirst);
+    }
     const bool isLeaf = working && !isSphere && !kind.isNode && !kind.isPlacement;
     uint entered = 0u;
     if (!STEPS_BRANCH || kind.isNode) entered = enterChildren(r, ray, begin, t.tMax);
@@ -204,7 +211,7 @@ void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     Group children = makeGroup(r.r0.w, entered);
     if (HAS_PLACEMENTS) children.word |= t.group.word & IN_WORLD;
     const Group after = select(descend, children, select(pop, newest, rest));
-    t.group = select(working || !HAS_PLACEMENTS && !SPHERES_WAIT, after, t.group); // what waits stays
+    t.group = select(working || !GROUPS_STAY, after, t.group); // what waits stays
     if (HAS_PLACEMENTS) changeSpace(t, working && kind.isPlacement, record, r);
     if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) endTraversal(t);
 }

@@ -53,12 +53,12 @@ TEST(Principled, ThinWhiteGlassKeepsTheLight) {
 }
 
 /// A path that leaves again has met the factor eta^2 on its way in and its inverse on its way out.
-/// What rough facets would scatter again is lost.
+/// What rough facets would scatter again is lost, and nothing where it is smooth.
 TEST(Principled, WhiteGlassLosesLittleWhereItIsNearlySmooth) {
     for (const float roughness : {0.0f, 0.2f}) {
         const Estimate found = estimate(sphereInAmbientLight(roughGlass(roughness, false)),
                                         kOutside, smallPicture(64, 200));
-        EXPECT_LT(found.mean.x, 1 + 4.5 * found.error.x);
+        EXPECT_LE(found.mean.x, 1 + 4.5 * found.error.x);
         EXPECT_GT(found.mean.x, 0.985 - 4.5 * found.error.x) << roughness;
     }
 }
