@@ -58,7 +58,8 @@ TEST(Principled, WhiteGlassLosesLittleWhereItIsNearlySmooth) {
     for (const float roughness : {0.0f, 0.2f}) {
         const Estimate found = estimate(sphereInAmbientLight(roughGlass(roughness, false)),
                                         kOutside, smallPicture(64, 200));
-        EXPECT_LE(found.mean.x, 1 + 4.5 * found.error.x);
+        constexpr double kRounding = 64 * 0x1p-24; // of the factors of a path through the ball
+        EXPECT_LT(found.mean.x, 1 + kRounding + 4.5 * found.error.x);
         EXPECT_GT(found.mean.x, 0.985 - 4.5 * found.error.x) << roughness;
     }
 }
