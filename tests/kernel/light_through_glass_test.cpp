@@ -279,14 +279,8 @@ TEST_F(LightThroughGlass, HasTheSameBytesHoweverTheWorkIsCut) {
     const Scene scene = roomWithGlass({.glass = Glass::Ball});
     settings_.budget.mostSamplesPerPixel = 8;
     settings_.estimator.branches = 4;
-    const Film whole = pictureOf(scene, true);
-    EXPECT_TRUE(sameStatistics(
-        whole, pictureOf(scene, true, {.scheduler = PathScheduler::Wavefront, .lanes = 100})))
-        << "the other scheduler";
-    EXPECT_TRUE(sameStatistics(whole, pictureOf(scene, true, {.fixedIterations = 3})))
-        << "in short dispatches";
-    EXPECT_TRUE(sameStatistics(whole, pictureOf(scene, true, {.texelFetch = false})))
-        << "from storage buffers";
+    expectTheSameBytesHoweverTheWorkIsCut(
+        [&](const KernelTuning& tuning) { return pictureOf(scene, true, tuning); });
 }
 
 // --- When

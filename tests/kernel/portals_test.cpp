@@ -236,14 +236,8 @@ TEST_F(PortalLight, HasTheSameBytesHoweverTheWorkIsCut) {
     const Scene scene = roomWithWindow(0.7f);
     const Portals portals = anyPortals();
     settings_.budget.mostSamplesPerPixel = 4;
-    const Film whole = pictureOf(scene, portals);
-    EXPECT_TRUE(sameStatistics(
-        whole, pictureOf(scene, portals, {.scheduler = PathScheduler::Wavefront, .lanes = 100})))
-        << "the other scheduler";
-    EXPECT_TRUE(sameStatistics(whole, pictureOf(scene, portals, {.fixedIterations = 3})))
-        << "in short dispatches";
-    EXPECT_TRUE(sameStatistics(whole, pictureOf(scene, portals, {.texelFetch = false})))
-        << "from storage buffers";
+    expectTheSameBytesHoweverTheWorkIsCut(
+        [&](const KernelTuning& tuning) { return pictureOf(scene, portals, tuning); });
 }
 
 /// Where portals are aimed at, nothing is learnt; and a picture does not depend on the one before.

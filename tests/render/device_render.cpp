@@ -1,10 +1,12 @@
 #include "tests/render/device_render.hpp"
-#include "host/cs184/cs184.hpp"
 
 #include "host/bvh/wide_layout.hpp"
+#include "host/cs184/cs184.hpp"
 #include "host/render/sampling_session.hpp"
 #include "scene/collada/load_collada.hpp"
 #include "source_dir.h"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 
@@ -22,6 +24,18 @@ bool sameStatistics(const Film& a, const Film& b) {
                       [](const PixelStatistics& p, const PixelStatistics& q) {
                           return p.count == q.count && p.mean == q.mean && p.m2 == q.m2;
                       });
+}
+
+void expectTheSameBytesHoweverTheWorkIsCut(
+    const std::function<Film(const KernelTuning&)>& pictureWith) {
+    const Film whole = pictureWith({});
+    EXPECT_TRUE(
+        sameStatistics(whole, pictureWith({.scheduler = PathScheduler::Wavefront, .lanes = 100})))
+        << "the other scheduler";
+    EXPECT_TRUE(sameStatistics(whole, pictureWith({.fixedIterations = 3})))
+        << "in short dispatches";
+    EXPECT_TRUE(sameStatistics(whole, pictureWith({.texelFetch = false})))
+        << "from storage buffers";
 }
 
 Scene loadScene(const std::filesystem::path& file, const SceneConventions& conventions) {

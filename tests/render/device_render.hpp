@@ -8,6 +8,7 @@
 #include "scene/model/scene.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace stromboli::test {
@@ -18,6 +19,11 @@ Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Came
 
 /// Whether all pixels have the same numbers of samples, means and squared deviations, to the bit.
 bool sameStatistics(const Film& a, const Film& b);
+
+/// That `pictureWith`, by a KernelTuning, makes the same bytes by the other scheduler, in short
+/// dispatches and from storage buffers.
+void expectTheSameBytesHoweverTheWorkIsCut(
+    const std::function<Film(const KernelTuning&)>& pictureWith);
 
 /// What renders cost: their error for the rays that were cast.
 struct Expense {

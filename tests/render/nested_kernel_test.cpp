@@ -8,6 +8,7 @@
 #include "host/render/sampling_session.hpp"
 #include "scene/add_fog.hpp"
 #include "scene/generate/generated_scene.hpp"
+#include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/render/film_checks.hpp"
@@ -45,6 +46,18 @@ void makeMetal(Scene& scene) {
         m.facets = {FacetDistribution::Beckmann, glm::vec2(0.2f)};
         m.eta = glm::vec3(1.5f), m.k = glm::vec3(3);
     }
+}
+
+/// A lamp before a wall, and a light of the file: a hemisphere gets as many directions as there
+/// are.
+Scene litWall() {
+    scenes::SceneMaker b;
+    b.quad({-2, 0, -2}, {4, 0, 0}, {0, 3, 0}, b.add(scenes::diffuse(0.6f)));
+    b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, b.add(scenes::emissive(4)));
+    Light lamp;
+    lamp.position = {1.5f, 1, 1.5f};
+    b.add(lamp);
+    return b.scene;
 }
 
 /// Every material, kind of light, way of sampling, roulette, integrator and camera of the kernel.
@@ -114,7 +127,11 @@ const NestedPicture kNestedPictures[] = {
     {"cs184Glass", "cornell_mirror_glass.dae", [](Scene&, RenderSettings&) {}, true},
     {"cs184Metal", "cornell_metal.dae", [](Scene&, RenderSettings&) {}, true},
     {"cs184Hemisphere", "cornell_boxes.dae",
-     [](Scene&, RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }, true},
+     [](Scene& scene, RenderSettings& s) {
+         s.estimator.directLight = DirectLight::Hemisphere;
+         scene = litWall();
+     },
+     true},
     {"rejectedSamples", "cornell_boxes.dae",
      [](Scene& scene, RenderSettings&) { // emitters brighter than a sample may be
          for (Material& m : scene.materials)
@@ -227,8 +244,10 @@ TEST_P(NestedPictures, AreTheProductsBitForBit) {
     load(picture);
     const Result textbook = nested();
     uint64_t samples = 0, rejected = 0;
+    double light = 0;
     for (const PixelStatistics& p : textbook.film.pixels)
-        samples += p.taken(), rejected += p.rejected;
+        samples += p.taken(), rejected += p.rejected, light += p.mean.y;
+    EXPECT_EQ(light > 0, std::string(picture.name) != "rejectedSamples") << "black in both";
     EXPECT_EQ(samples, uint64_t(settings_.area.width) * settings_.area.height * kSamples);
     EXPECT_EQ(rejected > 0, std::string(picture.name) == "rejectedSamples");
     const size_t tuning = GetParam() % kTuningsOfPictures; // each in turn
