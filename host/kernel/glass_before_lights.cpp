@@ -13,14 +13,6 @@ namespace {
 /// Rays of the camera, squared, and what is looked at from each surface that they find.
 constexpr uint32_t kSide = 24;
 constexpr size_t kLookedAt = 4;
-constexpr int kMostPanes = 16;
-/// Squared distance of two unit vectors that a flat pane has not told apart (SAME_DIRECTION of
-/// shaders/include/clear_glass.glsl).
-constexpr double kSameDirection = 0x1p-22;
-
-bool isClearGlass(const GpuScene& packed, uint32_t place) {
-    return (materialAtPlace(packed, place).closures & gpu::LOBE_DELTA_TRANSMISSION) != 0;
-}
 
 /// What a ray has found: its closest hit, or the first one behind glass.
 struct Found {
@@ -36,7 +28,7 @@ class Rays {
     /// Follows a ray through clear glass, bent, as far as that lets it through.
     Found follow(TraversalRay ray) const {
         Found found{ray, closestHit(packed_.bvh, ray)};
-        while (found.hit && isClear(found.hit) && found.panes < kMostPanes) {
+        while (found.hit && isClear(found.hit) && found.panes < int(gpu::MOST_PANES)) {
             const std::optional<TraversalRay> bent = throughSurface(found.ray, found.hit);
             if (!bent) break;
             found.ray = *bent;
@@ -46,7 +38,7 @@ class Rays {
         return found;
     }
 
-    bool isClear(const TraversalHit& hit) const { return isClearGlass(packed_, hit.primitive); }
+    bool isClear(const TraversalHit& hit) const { return isClearAtPlace(packed_, hit.primitive); }
     bool emits(const TraversalHit& hit) const {
         return materialAtPlace(packed_, hit.primitive).emission != glm::vec3(0);
     }
@@ -81,13 +73,7 @@ class Rays {
   private:
     /// The index behind the surface over that before it, seen from outside; 1: light goes straight.
     double indexAt(const TraversalHit& hit) const {
-        const gpu::LeafRecord leaf = asLeaf(packed_.bvh.records[hit.primitive / 2]);
-        const uint32_t first = leaf.primitive & gpu::RECORD_INDEX_MASK;
-        const uint32_t id = packed_.bvh.primitiveOrder[first + hit.primitive % 2];
-        const size_t triangles = scene_.triangles.size();
-        const Material& m =
-            scene_.materials[id < triangles ? scene_.triangles[id].material
-                                            : scene_.spheres[id - triangles].material];
+        const Material& m = scene_.materials[materialNumberAt(scene_, packed_.bvh, hit.primitive)];
         if (m.kind == MaterialKind::Principled)
             return m.principled.isThin ? 1 : double(m.principled.ior);
         return m.kind == MaterialKind::ThinDielectric ? 1 : double(m.ior);
@@ -190,7 +176,8 @@ Arriving fromSky(const Rays& rays, std::span<const Place> places, Random& random
             const glm::dvec3 d(aboutNormal(p.normal, random));
             const Found found = rays.follow(rays.leave(p.point, p.normal, d, p.hit));
             const glm::dvec3 turn = glm::dvec3(found.ray.direction) - d;
-            if (!found.hit && glm::dot(turn, turn) <= kSameDirection) arriving.add(found, 1);
+            if (!found.hit && glm::dot(turn, turn) <= double(gpu::SAME_DIRECTION))
+                arriving.add(found, 1);
         }
     return arriving;
 }
@@ -213,7 +200,7 @@ double shareThroughGlass(const Scene& scene, const GpuScene& packed, const Camer
 }
 
 SeesThrough clearGlassOf(const GpuScene& packed) {
-    return [&packed](uint32_t place) { return isClearGlass(packed, place); };
+    return [&packed](uint32_t place) { return isClearAtPlace(packed, place); };
 }
 
 } // namespace stromboli

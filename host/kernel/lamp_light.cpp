@@ -144,12 +144,7 @@ class GlassAboutLamps {
 
   private:
     uint32_t materialOf(const TraversalHit& hit) const {
-        const gpu::LeafRecord leaf = asLeaf(bvh_.records[hit.primitive / 2]);
-        const uint32_t first = leaf.primitive & gpu::RECORD_INDEX_MASK;
-        const uint32_t id = bvh_.primitiveOrder[first + hit.primitive % 2];
-        const size_t triangles = scene_.triangles.size();
-        return id < triangles ? scene_.triangles[id].material
-                              : scene_.spheres[id - triangles].material;
+        return materialNumberAt(scene_, bvh_, hit.primitive);
     }
 
     /// All of an emitter is of one material: what it shines with does not matter.
@@ -190,6 +185,18 @@ gpu::MaterialHeader materialAtPlace(const GpuScene& scene, uint32_t place) {
     const gpu::LeafRecord leaf = asLeaf(scene.bvh.records[place / 2]);
     const uint32_t first = leaf.primitive & gpu::RECORD_INDEX_MASK;
     return materialHeader(scene, scene.primitives[first + place % 2]);
+}
+
+bool isClearAtPlace(const GpuScene& scene, uint32_t place) {
+    return (materialAtPlace(scene, place).closures & gpu::LOBE_DELTA_TRANSMISSION) != 0;
+}
+
+uint32_t materialNumberAt(const Scene& scene, const WideLayout& bvh, uint32_t place) {
+    const gpu::LeafRecord leaf = asLeaf(bvh.records[place / 2]);
+    const uint32_t first = leaf.primitive & gpu::RECORD_INDEX_MASK;
+    const uint32_t id = bvh.primitiveOrder[first + place % 2];
+    const size_t triangles = scene.triangles.size();
+    return id < triangles ? scene.triangles[id].material : scene.spheres[id - triangles].material;
 }
 
 Lamp lampAtPlace(const GpuScene& scene, uint32_t place) {

@@ -40,6 +40,11 @@ void goThrough(const WideLayout& bvh, TraversalRay& ray, const TraversalHit& hit
 /// Of the primitive at a place in the tree.
 gpu::MaterialHeader materialAtPlace(const GpuScene& scene, uint32_t place);
 
+/// Whether light goes through it in one direction, bent or straight.
+bool isClearAtPlace(const GpuScene& scene, uint32_t place);
+/// The scene's material of it, as a number of Scene::materials.
+uint32_t materialNumberAt(const Scene& scene, const WideLayout& bvh, uint32_t place);
+
 /// What light starts from: a parallelogram, a triangle or a sphere.
 struct Lamp {
     glm::dvec3 corner{0}, edgeA{0}, edgeB{0};

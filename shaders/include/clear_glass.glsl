@@ -4,10 +4,6 @@
 // direction in which they have left the last surface that scatters light into many. Whatever is asked of that direction, it
 // is asked of both, so that their weights add up to 1.
 
-/// Surfaces of glass that a light sample goes through at most; behind more, bounces find its light alone. So a dispatch
-/// is not longer than it may be (softLimit() of host/kernel/dispatcher.cpp).
-const uint MOST_PANES = 12u;
-
 /// Glass that light goes through in one direction, whatever else the surface does. Where it is partly not there, rays of
 /// light samples pass it as they pass all that is, and no more.
 bool isClear(Material m) { return LIGHT_THROUGH_GLASS && (lobesOf(m) & LOBE_DELTA_TRANSMISSION) != 0u; }
@@ -66,7 +62,3 @@ bool leadsTo(const OnlyLight onlyLight, PlacedPrimitive place, uint light, vec3 
     }
     return leads;
 }
-
-/// Squared distance of two unit vectors that are the same for the sky: an angle of 1.7', less than a texel of most. What
-/// goes through panes and flat slabs keeps its direction but for rounding.
-const float SAME_DIRECTION = 2.384185791015625e-7;

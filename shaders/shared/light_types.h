@@ -91,6 +91,14 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
       sampleEnvironment(given.frame, s, rows, u)) \
     DELTA_LIGHT_STRUCTURES(F)
 
+/// Surfaces of clear glass that a light sample goes through at most (include/clear_glass.glsl); behind more, bounces find
+/// its light alone. So a dispatch is not longer than it may be (softLimit() of host/kernel/dispatcher.cpp).
+SHARED_CONST uint MOST_PANES = 12u;
+/// Squared distance of two unit vectors that are the same for the sky: 2^-22, an angle of 1.7', less than a texel of most
+/// skies. Flat panes and slabs keep a ray's direction but for rounding. Any limit leaves pictures without bias, since light
+/// samples and bounces are asked alike.
+SHARED_CONST float SAME_DIRECTION = 2.384185791015625e-7f;
+
 #define DECLARE_FIELD(type, name, row, place) type name;
 #define DECLARE_LIGHT(structure, function, fields, met, sample) \
     struct structure { fields(DECLARE_FIELD) }; \
