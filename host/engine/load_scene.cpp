@@ -3,6 +3,7 @@
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
+#include "host/kernel/arriving_light.hpp"
 #include "host/kernel/feelers.hpp"
 #include "host/kernel/find_portals.hpp"
 #include "host/kernel/glass_before_lights.hpp"
@@ -157,20 +158,27 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
     return built;
 }
 
-void fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
-                  const Estimator& estimator) {
+std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
+                                   const Estimator& estimator) {
     if (!built.ofRay.isKnown()) built.ofRay = visitsOfRay(built.bvh, camera);
     if (!built.lit && mayAimBounces(estimator)) built.lit = findLitCells(built);
     built.glassBeforeLights =
         mayLightThroughGlass(built, estimator) ? shareThroughGlass(scene, built, camera) : 0;
-    const bool looksThroughGlass = lightsThroughGlass(built, estimator);
+    const bool goThroughGlass = lightsThroughGlass(built, estimator);
     built.portals = {};
-    if (!aimsAtPortals(built, estimator)) return;
-    const std::shared_ptr<const EnvironmentTable>& sky = built.lights.environment;
-    built.portals = scene.portals.empty()
-                        ? findPortals(built.bvh, camera, sky ? sky->unevenness : 1,
-                                      looksThroughGlass ? clearGlassOf(built) : SeesThrough())
-                        : statedPortals(scene.portals, camera);
+    if (aimsAtPortals(built, estimator)) {
+        const std::shared_ptr<const EnvironmentTable>& sky = built.lights.environment;
+        built.portals = scene.portals.empty()
+                            ? findPortals(built.bvh, camera, sky ? sky->unevenness : 1,
+                                          goThroughGlass ? clearGlassOf(built) : SeesThrough())
+                            : statedPortals(scene.portals, camera);
+    }
+    if (!built.lights.weighed) return {};
+    HowLightsArePicked how{built.lights.weighed->plain, {}};
+    if (samplesLights(estimator.directLight) && estimator.integrator == Integrator::Path)
+        how = howToPick(scene, built, camera, goThroughGlass);
+    if (!pickBy(built.lights, how.choice, how.factors)) return {};
+    return {BINDING_LIGHT_TABLE};
 }
 
 } // namespace stromboli

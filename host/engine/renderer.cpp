@@ -251,13 +251,18 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
 /// Portals are found anew for each camera: it may stand in another room than the one before.
 void Renderer::fitToPicture() {
     GpuScene& scene = built_->gpu;
-    stromboli::fitToPicture(scene, *scene_, camera_, settings_.estimator);
+    const std::vector<uint32_t> changed =
+        stromboli::fitToPicture(scene, *scene_, camera_, settings_.estimator);
+    if (!changed.empty()) devices_->sceneHasChanged(changed);
     kept_.ofRay = scene.ofRay;
     const bool areStated = !scene_->portals.empty();
     if (const size_t count = scene.portals.all.size(); count > 0)
         listener_.detail(fmt::format("light samples aim at {} {} that the sky is seen through{}",
                                      count, count == 1 ? "rectangle" : "rectangles",
                                      areStated ? "" : " (found: --portals off leaves them out)"));
+    if (scene.lights.isPickedByArrival)
+        listener_.detail("light samples pick lights by how much of their light arrives "
+                         "(--light-choice tree or power: by power and place alone)");
     if (lightsThroughGlass(scene, settings_.estimator))
         listener_.detail("light samples go on where they meet clear glass");
     if (aimsBounces(scene, settings_.estimator))

@@ -205,15 +205,17 @@ Lamp lampAtPlace(const GpuScene& scene, uint32_t place) {
                            (m.closures & gpu::MATERIAL_EMITS_BOTH_SIDES) != 0);
 }
 
+std::optional<Lamp> lampOfLight(const GpuScene& scene, uint32_t number) {
+    const uint32_t light = structureAt<gpu::LightEntry>(scene.lights.table, number).light;
+    if (light & gpu::LIGHT_IS_TRIANGLE) return lampAtPlace(scene, light & ~gpu::LIGHT_IS_TRIANGLE);
+    if (!hasSurface(scene.lights, light)) return std::nullopt;
+    return lampOfRows(scene.lights, light);
+}
+
 std::vector<Lamp> sampledLamps(const GpuScene& scene) {
     std::vector<Lamp> lamps;
-    for (uint32_t i = 0; i < scene.lights.count; ++i) {
-        const uint32_t light = structureAt<gpu::LightEntry>(scene.lights.table, i).light;
-        const bool isTriangle = (light & gpu::LIGHT_IS_TRIANGLE) != 0;
-        if (!isTriangle && !hasSurface(scene.lights, light)) continue;
-        lamps.push_back(isTriangle ? lampAtPlace(scene, light & ~gpu::LIGHT_IS_TRIANGLE)
-                                   : lampOfRows(scene.lights, light));
-    }
+    for (uint32_t i = 0; i < scene.lights.count; ++i)
+        if (const std::optional<Lamp> lamp = lampOfLight(scene, i)) lamps.push_back(*lamp);
     std::erase_if(lamps, [](const Lamp& lamp) { return !(lamp.power > 0); });
     return lamps;
 }
@@ -232,23 +234,26 @@ glm::vec3 aboutNormal(const glm::dvec3& n, Random& random) {
     return length > 1e-6 ? glm::vec3(d / length) : glm::vec3(n);
 }
 
+LampPoint pointOf(const Lamp& lamp, Random& random) {
+    if (lamp.radius > 0) {
+        const glm::dvec3 normal(random.direction());
+        return {lamp.corner + lamp.radius * normal, normal};
+    }
+    double u = random.uniform(), v = random.uniform();
+    if (lamp.isTriangle && u + v > 1) u = 1 - u, v = 1 - v;
+    LampPoint at{lamp.corner + u * lamp.edgeA + v * lamp.edgeB,
+                 glm::normalize(glm::cross(lamp.edgeA, lamp.edgeB))};
+    if (lamp.bothSides && random.uniform() < 0.5f) at.normal = -at.normal;
+    return at;
+}
+
 TraversalRay leaveLamp(const Lamp& lamp, Random& random) {
     TraversalRay ray;
-    glm::dvec3 normal, from;
-    if (lamp.radius > 0) {
-        normal = glm::dvec3(random.direction());
-        from = lamp.corner + lamp.radius * normal;
-    } else {
-        double u = random.uniform(), v = random.uniform();
-        if (lamp.isTriangle && u + v > 1) u = 1 - u, v = 1 - v;
-        from = lamp.corner + u * lamp.edgeA + v * lamp.edgeB;
-        normal = glm::normalize(glm::cross(lamp.edgeA, lamp.edgeB));
-        if (lamp.bothSides && random.uniform() < 0.5f) normal = -normal;
-    }
-    ray.direction = aboutNormal(normal, random);
+    const LampPoint from = pointOf(lamp, random);
+    ray.direction = aboutNormal(from.normal, random);
     // Outside of the lamp, whatever the rounding of its corners and of the origin, of 2^-24 each.
-    const double size = glm::length(from) + lamp.radius + glm::length(lamp.edgeA);
-    ray.origin = glm::vec3(from + 0x1p-20 * size * normal);
+    const double size = glm::length(from.point) + lamp.radius + glm::length(lamp.edgeA);
+    ray.origin = glm::vec3(from.point + 0x1p-20 * size * from.normal);
     return ray;
 }
 

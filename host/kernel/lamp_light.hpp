@@ -56,11 +56,20 @@ struct Lamp {
 /// An emissive triangle or sphere at a place in the tree.
 Lamp lampAtPlace(const GpuScene& scene, uint32_t place);
 
+/// The lamp that a light that is sampled is, by its number; nothing if it has no surface.
+std::optional<Lamp> lampOfLight(const GpuScene& scene, uint32_t number);
+
 /// The lights with a surface that are sampled.
 std::vector<Lamp> sampledLamps(const GpuScene& scene);
 
 /// These, and the lamps that are left to bounces.
 std::vector<Lamp> lampsOf(const GpuScene& scene);
+
+/// A point of a lamp, uniform by area.
+struct LampPoint {
+    glm::dvec3 point, normal; ///< unit: of the side that shines, by chance if both do
+};
+LampPoint pointOf(const Lamp& lamp, Random& random);
 
 /// A ray of a lamp's light, by its area and the cosine.
 TraversalRay leaveLamp(const Lamp& lamp, Random& random);

@@ -21,6 +21,16 @@ double radiusOf(const Scene& scene) {
     return radius > 0 ? radius : 1;
 }
 
+/// Of more lights it is not asked how much of their light arrives (arriving_light.hpp).
+constexpr uint32_t kMostWeighed = 1024;
+
+/// What kernels know of the tree by which lights are picked; of none: an empty one.
+void setTree(LightTable& lights, const LightTree& tree) {
+    lights.groups = tree.groups;
+    lights.lightsInGroup = tree.lightsInGroup;
+    lights.levels = tree.levels;
+}
+
 /// Collects the lights that are sampled, with what one is picked by.
 class Packer {
   public:
@@ -224,62 +234,52 @@ class Packer {
         if (out_.areaCount < entries_.size()) return false;
         double others = 0;
         for (uint32_t i = 0; i < bounds_.size(); ++i)
-            if (i != out_.ambientNumber) others += weightOf(bounds_[i]);
-        return others < kFaint * weightOf(bounds_[out_.ambientNumber]);
+            if (i != out_.ambientNumber) others += irradianceAcross(bounds_[i], sceneRadius_);
+        return others < kFaint * irradianceAcross(bounds_[out_.ambientNumber], sceneRadius_);
     }
 
     void writeTable() {
         if (out_.choice == LightChoice::Automatic) out_.choice = suitableChoice();
-        const bool byTree = out_.choice == LightChoice::Tree && out_.count > 1;
-        const bool byTable = !byTree && out_.choice != LightChoice::Each && out_.count > 1;
-        LightTree tree;
-        std::vector<double> weights;
-        double sum = 0;
-        if (byTree) {
-            tree = buildLightTree(bounds_);
-            renumber(tree.order);
+        const bool isPicked = out_.count > 1 && out_.choice != LightChoice::Each;
+        const bool byTree = isPicked && out_.choice == LightChoice::Tree;
+        const bool mayPickBy =
+            isPicked && selection_.choice == LightChoice::Automatic && out_.count <= kMostWeighed;
+        WeighedLights lights;
+        if (byTree || mayPickBy) {
+            lights.tree = buildLightTree(bounds_);
+            renumber(lights.tree);
         }
-        if (byTable)
-            for (const LightBounds& b : bounds_)
-                sum += weights.emplace_back(weightOf(b));
-        for (size_t i = 0; i < entries_.size(); ++i) {
-            if (byTree) entries_[i].trail = tree.trails[i];
-            if (byTable) entries_[i].probability = float(weights[i] / sum);
-            appendRows(out_.table, entries_[i]);
-        }
-        // All first rows, then all second ones, which few scenes read.
-        for (const size_t part : {0, 1})
-            for (const gpu::LightNode& node : tree.nodes)
-                out_.table.push_back(std::bit_cast<std::array<Row, 2>>(node)[part]);
-        if (byTable)
-            for (const AliasColumn& column : buildAliasTable(weights))
-                appendRows(out_.table,
-                           gpu::AliasColumn{float(column.threshold), column.alias, 0, 0});
-        out_.groups = tree.groups;
-        out_.lightsInGroup = tree.lightsInGroup;
-        out_.levels = tree.levels;
+        lights.entries = std::move(entries_);
+        lights.bounds = std::move(bounds_);
+        lights.radius = sceneRadius_;
+        lights.plain = out_.choice;
+        if (out_.choice == LightChoice::Uniform) // as if all brought the same
+            lights.bounds.assign(lights.entries.size(), {.power = 1});
+        if (isPicked)
+            out_.table = tableOf(lights, out_.choice);
+        else
+            for (const gpu::LightEntry& entry : lights.entries)
+                appendRows(out_.table, entry);
+        if (byTree) setTree(out_, lights.tree);
+        if (mayPickBy) out_.weighed = std::move(lights);
     }
 
-    /// order: by the new number, the number so far.
-    void renumber(std::span<const uint32_t> order) {
+    /// Numbers the lights as the tree has them.
+    void renumber(const LightTree& tree) {
         std::vector<gpu::LightEntry> entries;
-        std::vector<uint32_t> newNumber(order.size());
-        for (const uint32_t number : order) {
+        std::vector<LightBounds> bounds;
+        std::vector<uint32_t> newNumber(tree.order.size());
+        for (const uint32_t number : tree.order) {
             newNumber[number] = uint32_t(entries.size());
+            bounds.push_back(bounds_[number]);
             entries.push_back(entries_[number]);
+            entries.back().trail = tree.trails[newNumber[number]];
         }
         entries_ = std::move(entries);
+        bounds_ = std::move(bounds);
         for (uint32_t& number : out_.numberOf)
             if (number != gpu::NO_LIGHT) number = newNumber[number];
         if (out_.ambientNumber != gpu::NO_LIGHT) out_.ambientNumber = newNumber[out_.ambientNumber];
-    }
-
-    /// In an alias table: the irradiance that the light brings to a surface across the scene, both
-    /// sides of it counted.
-    double weightOf(const LightBounds& b) const {
-        if (out_.choice == LightChoice::Uniform) return 1;
-        const double falloff = b.group == gpu::LIGHT_GROUP_NEAR ? sceneRadius_ * sceneRadius_ : 1;
-        return b.power * (b.bothSides ? 2 : 1) / falloff;
     }
 
     const std::vector<bool>& isLeft_;
@@ -318,6 +318,18 @@ LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       std::shared_ptr<const EnvironmentTable> environment,
                       const std::vector<bool>& isLeft) {
     return Packer(scene, placeOf, selection, pictures, std::move(environment), isLeft).pack();
+}
+
+bool pickBy(LightTable& lights, LightChoice choice, std::span<const double> factors) {
+    const bool byTree = choice == LightChoice::Tree;
+    std::vector<Row> table = tableOf(*lights.weighed, choice, factors);
+    const bool isOther = !std::ranges::equal(std::as_bytes(std::span(table)),
+                                             std::as_bytes(std::span(lights.table)));
+    lights.table = std::move(table);
+    lights.choice = choice;
+    lights.isPickedByArrival = !factors.empty();
+    setTree(lights, byTree ? lights.weighed->tree : LightTree());
+    return isOther;
 }
 
 /// It is the first of all lights; its parameters are behind its header.

@@ -2,6 +2,7 @@
 
 #include "host/kernel/rows.hpp"
 #include "host/kernel/sampling_tables.hpp"
+#include "host/kernel/weighed_lights.hpp"
 #include "host/render/estimator.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/light_types.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +58,10 @@ struct LightTable {
     /// By primitive of the scene (triangles, then spheres): its light's number, or NO_LIGHT; empty
     /// where no primitive is a sampled light.
     std::vector<uint32_t> numberOf;
+    /// Of few lights of which one is picked, by a choice that was left to us: what pickBy() writes
+    /// the table from.
+    std::optional<WeighedLights> weighed;
+    bool isPickedByArrival = false; ///< it has factors
 
     /// EnvironmentTexel rows; empty: there is no picture.
     std::span<const Row> environmentRows() const {
@@ -71,6 +77,11 @@ LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       const LightSelection& selection, std::span<const uint32_t> pictures = {},
                       std::shared_ptr<const EnvironmentTable> environment = {},
                       const std::vector<bool>& isLeft = {});
+
+/// Has light samples pick lights by a tree or by an alias table (Tree, Power), in which each weighs
+/// so many times as much (tableOf()). Only of a table with `weighed`. Returns whether the table is
+/// another one now.
+bool pickBy(LightTable& lights, LightChoice choice, std::span<const double> factors);
 
 /// Gives the environment's picture, if there is one, another rotation (radians).
 void turnEnvironment(LightTable& lights, float rotation);

@@ -253,6 +253,22 @@ class TreeBuilder {
 
 } // namespace
 
+void setPowers(std::span<gpu::LightNode> nodes, std::span<const uint32_t> lightsInGroup,
+               std::span<const LightBounds> lights, std::span<const double> factors) {
+    size_t first = 0;
+    for (const uint32_t count : lightsInGroup) {
+        std::vector<double> power(2 * size_t(count));
+        for (size_t node = power.size(); node-- > 1;) {
+            const size_t light = first + node - count;
+            power[node] = node >= count ? lights[light].power * factors[light]
+                                        : power[2 * node] + power[2 * node + 1];
+            uint32_t& stored = nodes[2 * first + node].radiusAndPower;
+            stored = (stored & 0xFFFF0000u) | halfRoundedUp(power[node]);
+        }
+        first += count;
+    }
+}
+
 LightTree buildLightTree(std::span<const LightBounds> lights) {
     LightTree tree;
     for (uint32_t group = 0; group < gpu::LIGHT_GROUP_COUNT; ++group) {

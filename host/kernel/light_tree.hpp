@@ -49,6 +49,11 @@ struct LightTree {
     uint32_t groups = 0; ///< bit n: group n has lights
 };
 
+/// The powers of nodes whose lights each have `factors` times their own power, by number. nodes: of
+/// buildLightTree(), whose lights these are in its order.
+void setPowers(std::span<gpu::LightNode> nodes, std::span<const uint32_t> lightsInGroup,
+               std::span<const LightBounds> lights, std::span<const double> factors);
+
 /// Numbers the lights anew. Splits where the layout asks for it, at the median or near it, along
 /// the axis where power x area x orientation of the parts is least.
 LightTree buildLightTree(std::span<const LightBounds> lights);

@@ -149,7 +149,9 @@ struct FilterShape {
 
 /// How a light sample picks one of the lights (docs/theory/estimator.md, "Which light").
 enum class LightChoice {
-    Automatic, ///< what suits the lights: Tree, but Each of two, and Power in a single small mesh
+    /// What suits the lights: Tree, but Each of two, and Power in a single small mesh or where a sky
+    /// outshines the others; Tree and Power by how much of each light arrives.
+    Automatic,
     Tree,      ///< by what it is likely to bring to the surface
     Power,     ///< by its power
     Uniform,   ///< the control

@@ -14,9 +14,7 @@ namespace {
 
 using namespace test;
 
-const Camera kInside = lookingAt({0.9, 0.1, 0.7}, {-0.6, -0.4, -0.3}, 0.8);
-
-Portals foundIn(const Scene& scene, const Camera& camera = kInside) {
+Portals foundIn(const Scene& scene, const Camera& camera = kRoomView) {
     return findPortals(buildWideBvh(scene), camera, 1);
 }
 
@@ -92,8 +90,8 @@ TEST(FindPortals, FindsNothingInTheOpenInTheDarkAndOfNothing) {
 /// Samples that aim at a window miss a sun in the sky's picture.
 TEST(FindPortals, FindsNothingUnderASunThatIsSmallerThanTheWindow) {
     const WideLayout bvh = buildWideBvh(roomWithWindow(0.8f));
-    EXPECT_EQ(findPortals(bvh, kInside, 2).all.size(), 1u);
-    EXPECT_TRUE(findPortals(bvh, kInside, 100).all.empty());
+    EXPECT_EQ(findPortals(bvh, kRoomView, 2).all.size(), 1u);
+    EXPECT_TRUE(findPortals(bvh, kRoomView, 100).all.empty());
 }
 
 /// Bytes of pictures depend on it.
@@ -113,10 +111,10 @@ TEST(StatedPortals, FaceTheCameraAndAreNotTooMany) {
     const Portal towardsX = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                  awayFromX = {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
     const std::vector<Portal> both = {towardsX, awayFromX};
-    for (const Portal& p : statedPortals(both, kInside).all)
+    for (const Portal& p : statedPortals(both, kRoomView).all)
         EXPECT_GT(glm::cross(p.edgeA, p.edgeB).x, 0);
     const std::vector<Portal> many(kMostPortals + 3, towardsX);
-    EXPECT_EQ(statedPortals(many, kInside).all.size(), kMostPortals);
+    EXPECT_EQ(statedPortals(many, kRoomView).all.size(), kMostPortals);
 }
 
 } // namespace

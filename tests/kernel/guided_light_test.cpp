@@ -39,8 +39,6 @@ std::shared_ptr<const LightGuide> garbage(const EnvironmentTable& environment) {
     return guide;
 }
 
-const Camera kView = lookingAt({0.9, 0.1, 0.7}, {-0.6, -0.4, -0.3}, 0.8);
-
 class GuidedLight : public DeviceTest {
   protected:
     GuidedLight() {
@@ -53,7 +51,7 @@ class GuidedLight : public DeviceTest {
     Film pictureOf(const Scene& loaded, const KernelTuning& tuning = {}) {
         const GpuScene scene =
             packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
-        VulkanBackend backend(testDevice(), scene, kView, settings_, tuning);
+        VulkanBackend backend(testDevice(), scene, kRoomView, settings_, tuning);
         isGuided_ = backend.features()[SPEC_GUIDES_LIGHT] != 0;
         return render(backend, settings_);
     }
@@ -122,10 +120,10 @@ TEST_F(GuidedLight, IsLearntAnewForOtherSettings) {
     RenderSettings other = settings_;
     other.estimator.sampler = Sampler::Independent;
     other.area.crop = {3, 4, 1, 1};
-    VulkanBackend backend(testDevice(), scene, kView, settings_);
-    backend.setPicture(kView, other);
+    VulkanBackend backend(testDevice(), scene, kRoomView, settings_);
+    backend.setPicture(kRoomView, other);
     const Film after = render(backend, other);
-    VulkanBackend fresh(testDevice(), scene, kView, other);
+    VulkanBackend fresh(testDevice(), scene, kRoomView, other);
     EXPECT_TRUE(sameStatistics(render(fresh, other), after));
 }
 
@@ -142,7 +140,7 @@ TEST_F(GuidedLight, IsLeftWhereASceneLiesOpen) {
 /// Learning would take a second kernel and as many paths as four samples of each pixel.
 TEST(SeesSkyInPart, WhereRaysLeaveThroughAWindowThatHasNoPane) {
     const auto sees = [](const Scene& scene) {
-        return seesSkyInPart(packScene(scene, buildWideBvh(scene)), kView);
+        return seesSkyInPart(packScene(scene, buildWideBvh(scene)), kRoomView);
     };
     EXPECT_TRUE(sees(roomWithWindow(0.7f)));
     scenes::SceneMaker b;

@@ -20,8 +20,6 @@ namespace {
 
 using namespace test;
 
-const Camera kRoomView = lookingAt({0.9, 0.1, 0.7}, {-0.6, -0.4, -0.3}, 0.8);
-
 /// Rectangles anywhere, of any size and direction, many of which overlap as seen from the room: the
 /// window itself among them, cut in two that overlap.
 Portals anyPortals() {

@@ -3,6 +3,7 @@
 
 #include "host/core/random.hpp"
 #include "host/film/film.hpp"
+#include "scene/camera/camera.hpp"
 #include "scene/generate/scene_maker.hpp"
 
 #include <gtest/gtest.h>
@@ -43,6 +44,9 @@ inline Scene roomWithWindow(float window) {
     b.scene.environment = roughSky();
     return b.scene;
 }
+
+/// From a corner of that room to its floor, the window on the left.
+inline const Camera kRoomView = lookingAt({0.9, 0.1, 0.7}, {-0.6, -0.4, -0.3}, 0.8);
 
 /// The room with a ball of rough glass, which is lit from both sides, and with lamps.
 inline Scene roomWithMore(uint32_t lamps) {

@@ -2,6 +2,7 @@
 """rooms_at_night.py FOLDER [ROOMS]: writes rooms that lamps light, for against_mitsuba.py, in Mitsuba 3's syntax.
 
 globe is a bare room with a bulb in a globe of glass, to which globe_and_panel adds a panel with eight times its light.
+closed_by_day is that room with nine panels, under a sky of which nothing comes in.
 reading_room and bathroom are the bundled ones without their skies: a lamp in a shade; bulbs in globes, and a lamp at
 the ceiling. With ROOMS, a folder with the rooms of other renderers (each with a mitsuba3.xml), there are also
 classroom, lit by twelve lamps or by the sun alone, and living-room, lit by three bulbs. Each is FOLDER/NAME/scene.xml.
@@ -14,6 +15,10 @@ LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 SKY = re.compile(r'<emitter type="(?:constant|directional|envmap|sunsky|sky)".*?</emitter>', re.DOTALL)
 SUN = """<emitter type="directional"><vector name="direction" x="0.865804" y="-0.416766" z="0.276929"/>
   <rgb name="irradiance" value="60, 54, 42"/></emitter>"""
+
+
+EVENING = f"""<emitter type="envmap"><string name="filename" value="{os.path.abspath(LIBRARY)}/evening_sky.hdr"/>
+  <float name="scale" value="16"/></emitter>"""
 
 
 GREY = '<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.7"/></bsdf></bsdf>'
@@ -65,6 +70,8 @@ def rooms(others):
     lamp = globe(-1.2, 2, -1, 0.085) + bulb(-1.2, 2, -1, 0.05, "60, 60, 60")
     yield "globe", BARE_ROOM, lamp
     yield "globe_and_panel", BARE_ROOM, lamp + panel(0.5, 2.4, 0.3, 0.25, "60, 60, 60")
+    panels = "".join(panel(x, 2.4, z, 0.15) for x in (-1.2, 0, 1.2) for z in (-1.2, 0, 1.2))
+    yield "closed_by_day", BARE_ROOM, panels + EVENING
     yield "reading_room_night", without_sky(os.path.join(LIBRARY, "reading_room.xml")), ""
     yield "bathroom_night", without_sky(os.path.join(LIBRARY, "bathroom.xml")), ""
     if not others:

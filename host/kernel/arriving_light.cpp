@@ -1,0 +1,391 @@
+#include "host/kernel/arriving_light.hpp"
+
+#include "host/kernel/lamp_light.hpp"
+#include "host/kernel/seen_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+namespace stromboli {
+
+// --- What arrives --------------------------------------------------------------------------------
+
+namespace {
+
+/// Rays of the camera, squared.
+constexpr uint32_t kSide = 16;
+/// Lights that are asked for at each place, one after the other, and rays to the sky.
+constexpr uint32_t kLightsOfPlace = 16, kRaysToSky = 4;
+/// A light's own places count as much on what is known of it as so many places of all lights.
+constexpr double kPlacesOfAll = 4;
+/// Of light samples, what stays with the choice by power and place.
+constexpr double kUnlearned = 0.1;
+/// What another segment of a light sample's ray costs, behind glass, by what the first one does.
+constexpr double kCostBehindGlass = 2.5;
+/// The noise of a picture that light samples do not make, by the least that they can make, and what
+/// a path takes at a surface beside its light sample, by what that takes: as in most rooms.
+constexpr double kOtherNoise = 16, kOtherCost = 1.5;
+/// Lights that no place is on the bright side of have so much of the largest share.
+constexpr double kLeastShare = 0x1p-20;
+/// So many lamps that take so much beside a sky are told apart by a tree. It takes a tenth more
+/// time.
+constexpr size_t kManyLamps = 8;
+constexpr double kShareOfManyLamps = 0.25;
+/// Gains below this are not worth a picture of other bytes.
+constexpr double kLeastGain = 1.1;
+
+/// A light sample: what it brings if nothing is in its way, and whether that is so.
+struct Asked {
+    double light = 0; ///< irradiance, relative luminance
+    bool arrives = false;
+    int segments = 1; ///< of its ray
+};
+
+/// What is known of a light's samples: means over the places that asked for it.
+struct Known {
+    double sent = 0,
+           arrived = 0; ///< weighted second moments: with nothing in the way, and as it is
+    double segments = 0;
+    size_t places = 0;
+};
+
+class Asker {
+  public:
+    Asker(const Scene& scene, const GpuScene& packed, bool goThroughGlass)
+        : packed_(packed), rays_(scene, packed, goThroughGlass) {
+        if (const auto& sky = packed.lights.environment) {
+            tiles_.resize(sky->tileProbability.size());
+            std::partial_sum(sky->tileProbability.begin(), sky->tileProbability.end(),
+                             tiles_.begin());
+        }
+    }
+
+    const SceneRays& rays() const { return rays_; }
+
+    Asked ask(const Place& place, uint32_t number, Random& random) const {
+        const LightBounds& bounds = packed_.lights.weighed->bounds[number];
+        if (number == packed_.lights.ambientNumber) return askSky(place, bounds, random);
+        if (const std::optional<Lamp> lamp = lampOfLight(packed_, number))
+            return askLamp(place, *lamp, bounds, random);
+        if (bounds.group == gpu::LIGHT_GROUP_INFINITE) return askSun(place, bounds);
+        return askPoint(place, bounds);
+    }
+
+  private:
+    Found follow(const Place& place, const glm::dvec3& w) const {
+        const glm::dvec3 n = glm::dot(w, place.normal) < 0 ? -place.normal : place.normal;
+        return rays_.follow(rays_.leave(place.point, n, w, place.hit));
+    }
+
+    /// Of light from direction w: 0 where it falls on the side that is not lit.
+    static double cosineAt(const Place& place, const glm::dvec3& w) {
+        const double cosine = glm::dot(w, place.normal);
+        return place.isLitFromBehind ? std::abs(cosine) : std::max(cosine, 0.0);
+    }
+
+    /// The environment by the tiles of its picture, other ambient light by the cosine.
+    Asked askSky(const Place& place, const LightBounds& bounds, Random& random) const {
+        Asked asked;
+        const bool isBehind = place.isLitFromBehind && random.uniform() < 0.5f;
+        glm::dvec3 w(aboutNormal(isBehind ? -place.normal : place.normal, random));
+        asked.light = bounds.power * (place.isLitFromBehind ? 2 : 1);
+        if (!tiles_.empty()) {
+            w = directionInTile(random);
+            asked.light = packed_.lights.environment->luminance * cosineAt(place, w);
+        }
+        if (!(asked.light > 0)) return {};
+        const Found found = follow(place, w);
+        asked.arrives = !found.hit && found.keepsDirection(glm::vec3(w));
+        asked.segments = 1 + found.panes;
+        return asked;
+    }
+
+    /// As tileOf() has tiles.
+    glm::dvec3 directionInTile(Random& random) const {
+        const gpu::EnvironmentLight& e = packed_.lights.environment->light;
+        const auto at = std::ranges::upper_bound(tiles_, random.uniform() * tiles_.back());
+        const uint32_t tile = std::min(uint32_t(at - tiles_.begin()), e.tiles - 1),
+                       side = 1u << e.tileShift;
+        const double column = (tile % e.tilesAcross + double(random.uniform())) * side,
+                     row = (tile / e.tilesAcross + double(random.uniform())) * side;
+        const double around = (std::min(column / e.width, 1.0) - 0.5) * 2 * std::numbers::pi,
+                     polar = std::min(row / e.height, 1.0) * std::numbers::pi;
+        const glm::dvec3 d(std::sin(around) * std::sin(polar), std::cos(polar),
+                           -std::cos(around) * std::sin(polar));
+        const double c = e.cosRotation, s = e.sinRotation;
+        return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+    }
+
+    Asked askLamp(const Place& place, const Lamp& lamp, const LightBounds& bounds,
+                  Random& random) const {
+        LampPoint at = pointOf(lamp, random);
+        const bool isSphere = lamp.radius > 0;
+        if (isSphere && glm::dot(at.normal, place.point - lamp.corner) < 0)
+            at = {2.0 * lamp.corner - at.point, -at.normal};
+        const glm::dvec3 to = at.point - place.point;
+        const double distance = glm::length(to);
+        if (!(distance > 0)) return {};
+        const glm::dvec3 w = to / distance;
+        // Not nearer than the lamp is large: there its samples go by solid angle.
+        const double least = lamp.radius * lamp.radius +
+                             glm::length(glm::cross(lamp.edgeA, lamp.edgeB)) / std::numbers::pi;
+        const double cosines =
+            cosineAt(place, w) * (isSphere ? 1 : std::max(-glm::dot(w, at.normal), 0.0));
+        Asked asked;
+        asked.light = bounds.power * cosines / std::max(distance * distance, least);
+        if (!(asked.light > 0)) return {};
+        const Found found = follow(place, w);
+        const bool isFree =
+            found.panes == 0 && (!found.hit || found.hit.t > distance * (1 - 0x1p-10));
+        asked.arrives = isFree || (found.hit && rays_.emits(found.hit));
+        asked.segments = 1 + found.panes;
+        return asked;
+    }
+
+    /// Lights without a surface end at glass.
+    Asked askSun(const Place& place, const LightBounds& bounds) const {
+        const glm::dvec3 w = -bounds.axis;
+        Asked asked;
+        asked.light = bounds.power * cosineAt(place, w);
+        if (!(asked.light > 0)) return {};
+        const Found found = follow(place, w);
+        asked.arrives = !found.hit && found.panes == 0;
+        return asked;
+    }
+
+    Asked askPoint(const Place& place, const LightBounds& bounds) const {
+        const glm::dvec3 to = bounds.lo - place.point;
+        const double distance = glm::length(to);
+        if (!(distance > 0)) return {};
+        const glm::dvec3 w = to / distance;
+        const bool isInCone = !bounds.sharp || -glm::dot(w, bounds.axis) >= bounds.cosSpread;
+        const bool fallsOff = bounds.group == gpu::LIGHT_GROUP_NEAR;
+        const double square = std::max(distance * distance, bounds.reach * bounds.reach);
+        Asked asked;
+        asked.light = isInCone ? bounds.power * cosineAt(place, w) / (fallsOff ? square : 1) : 0;
+        if (!(asked.light > 0)) return {};
+        const Found found = follow(place, w);
+        asked.arrives = found.panes == 0 && (!found.hit || found.hit.t >= distance);
+        return asked;
+    }
+
+    const GpuScene& packed_;
+    SceneRays rays_;
+    std::vector<double> tiles_; ///< probabilities, summed up
+};
+
+/// All samples of one light at a place.
+struct AskedOfLight {
+    uint32_t number = 0;
+    std::vector<Asked> asked;
+
+    double arriving() const {
+        double sum = 0;
+        for (const Asked& a : asked)
+            sum += a.arrives ? a.light : 0;
+        return sum / double(asked.size());
+    }
+};
+using AskedOfPlace = std::vector<AskedOfLight>;
+
+std::vector<AskedOfPlace> askAround(const Scene& scene, const GpuScene& packed,
+                                    const Camera& camera, bool goThroughGlass) {
+    Random random(41);
+    const Asker asker(scene, packed, goThroughGlass);
+    const uint32_t count = packed.lights.count, each = std::min(count, kLightsOfPlace);
+    std::vector<AskedOfPlace> places;
+    uint32_t next = 0;
+    for (const Place& place : placesSeen(asker.rays(), packed, camera, kSide, random)) {
+        AskedOfPlace& all = places.emplace_back();
+        for (uint32_t i = 0; i < each; ++i, next = (next + 1) % count) {
+            const bool isSky = next == packed.lights.ambientNumber;
+            AskedOfLight& of = all.emplace_back(next);
+            for (uint32_t k = 0; k < (isSky ? kRaysToSky : 1); ++k)
+                of.asked.push_back(asker.ask(place, next, random));
+        }
+    }
+    return places;
+}
+
+/// The second moment of samples of a light at a place, times the weight of what happens there.
+void add(Known& known, std::span<const Asked> asked, double weight) {
+    const double each = weight / double(asked.size());
+    for (const Asked& a : asked) {
+        known.sent += each * a.light * a.light;
+        known.arrived += a.arrives ? each * a.light * a.light : 0;
+        known.segments += a.segments / double(asked.size());
+    }
+    ++known.places;
+}
+
+/// Of samples that aim at portals hardly any is lost, and all bring what the sky's light there is
+/// on average: their second moment is that mean's square, which the products of two rays estimate.
+void addAimed(Known& known, std::span<const Asked> asked, double weight) {
+    double sent = 0, arrived = 0, sentSquares = 0, arrivedSquares = 0;
+    for (const Asked& a : asked) {
+        const double light = a.arrives ? a.light : 0;
+        sent += a.light, sentSquares += a.light * a.light;
+        arrived += light, arrivedSquares += light * light;
+        known.segments += a.segments / double(asked.size());
+    }
+    const double each = weight / double(asked.size() * (asked.size() - 1));
+    known.sent += each * (sent * sent - sentSquares);
+    known.arrived += each * (arrived * arrived - arrivedSquares);
+    ++known.places;
+}
+
+/// Noise counts by how bright it is beside the light of the place, and of the picture.
+std::vector<Known> knownOf(std::span<const AskedOfPlace> places, const LightTable& lights,
+                           bool aimsAtPortals) {
+    std::vector<double> brightness;
+    double mean = 0;
+    for (const AskedOfPlace& place : places) {
+        double& sum = brightness.emplace_back(0);
+        for (const AskedOfLight& of : place)
+            sum += of.arriving();
+        mean += sum / double(places.size());
+    }
+    std::vector<Known> known(lights.count);
+    for (size_t i = 0; i < places.size() && mean > 0; ++i) {
+        const double weight = std::pow(mean / (mean + brightness[i]), 2);
+        for (const AskedOfLight& of : places[i]) {
+            const bool aims = aimsAtPortals && of.number == lights.ambientNumber;
+            (aims ? addAimed : add)(known[of.number], of.asked, weight);
+        }
+    }
+    for (Known& k : known) {
+        const double count = std::max(double(k.places), 1.0);
+        k.sent /= count, k.arrived /= count, k.segments /= count;
+    }
+    return known;
+}
+
+// --- How often -----------------------------------------------------------------------------------
+
+void normalise(std::vector<double>& shares) {
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    for (double& s : shares)
+        s /= sum;
+}
+
+/// How often each light is picked without factors: by an alias table as it says, by a tree about in
+/// proportion to what it would bring with nothing in the way. All positive.
+std::vector<double> plainShares(const WeighedLights& lights, LightChoice choice,
+                                std::span<const Known> known) {
+    std::vector<double> shares;
+    double most = 0;
+    for (size_t i = 0; i < known.size(); ++i)
+        most = std::max(
+            most, shares.emplace_back(choice == LightChoice::Tree
+                                          ? std::sqrt(known[i].sent)
+                                          : irradianceAcross(lights.bounds[i], lights.radius)));
+    for (double& s : shares)
+        s = std::max(s, kLeastShare * most);
+    normalise(shares);
+    return shares;
+}
+
+/// Of light samples that pick each light with some probability: the second moment, and the cost by
+/// that of one whose ray is not bent.
+struct Sampling {
+    double moment = 0, cost = 0;
+    /// With the rest of a picture: what it takes to the same noise.
+    double time(const Sampling& best) const {
+        return (moment + kOtherNoise * best.moment) * (cost + kOtherCost);
+    }
+};
+
+Sampling samplingBy(std::span<const double> shares, std::span<const double> moments,
+                    std::span<const double> costs) {
+    Sampling s;
+    for (size_t i = 0; i < shares.size(); ++i) {
+        if (moments[i] > 0) s.moment += moments[i] / shares[i];
+        s.cost += shares[i] * costs[i];
+    }
+    return s;
+}
+
+/// The shares with which the picture takes the least time to the same noise, by Lagrange's rule:
+/// roots of M / (V c + l), M being a light's moment, V all noise, c its cost by all, and l such
+/// that they make up 1.
+std::vector<double> bestShares(std::span<const double> moments, std::span<const double> costs) {
+    std::vector<double> shares;
+    for (const double m : moments)
+        shares.push_back(std::sqrt(m));
+    normalise(shares);
+    const Sampling least = samplingBy(shares, moments, costs);
+    for (int round = 0; round < 8; ++round) {
+        const Sampling now = samplingBy(shares, moments, costs);
+        const double noise = now.moment + kOtherNoise * least.moment, cost = now.cost + kOtherCost;
+        const auto with = [&](double l) {
+            std::vector<double> p;
+            for (size_t i = 0; i < moments.size(); ++i)
+                p.push_back(std::sqrt(moments[i] / (noise * costs[i] / cost + l)));
+            return p;
+        };
+        const double cheapest = *std::ranges::min_element(costs);
+        double low = -noise * cheapest / cost * (1 - 0x1p-20), high = 4 * least.moment;
+        for (int halving = 0; halving < 40; ++halving) {
+            const double middle = 0.5 * (low + high);
+            const std::vector<double> p = with(middle);
+            (std::accumulate(p.begin(), p.end(), 0.0) > 1 ? low : high) = middle;
+        }
+        shares = with(high);
+        normalise(shares);
+    }
+    return shares;
+}
+
+/// To quarters of a power of two.
+double rounded(double factor) {
+    return std::exp2(std::round(4 * std::log2(factor)) / 4);
+}
+
+} // namespace
+
+HowLightsArePicked howToPick(const Scene& scene, const GpuScene& packed, const Camera& camera,
+                             bool goThroughGlass) {
+    const WeighedLights& lights = *packed.lights.weighed;
+    const HowLightsArePicked asPacked{lights.plain, {}};
+    const std::vector<Known> known = knownOf(askAround(scene, packed, camera, goThroughGlass),
+                                             packed.lights, !packed.portals.all.empty());
+    double sent = 0, arrived = 0;
+    for (const Known& k : known)
+        sent += k.sent, arrived += k.arrived;
+    if (!(arrived > 0)) return asPacked;
+    std::vector<double> moments, costs;
+    for (const Known& k : known) {
+        const double own = double(k.places) / (double(k.places) + kPlacesOfAll);
+        moments.push_back(k.sent *
+                          std::lerp(arrived / sent, k.sent > 0 ? k.arrived / k.sent : 0, own));
+        costs.push_back(1 + kCostBehindGlass * std::max(k.segments - 1, 0.0));
+    }
+    const std::vector<double> wanted = bestShares(moments, costs),
+                              plain = plainShares(lights, lights.plain, known);
+    const Sampling best = samplingBy(wanted, moments, costs);
+    const auto timeBy = [&](std::span<const double> shares) {
+        return samplingBy(shares, moments, costs).time(best);
+    };
+    const auto pickedBy = [&](LightChoice choice) {
+        HowLightsArePicked how{choice, {}};
+        const std::vector<double> of = plainShares(lights, choice, known);
+        for (size_t i = 0; i < of.size(); ++i)
+            how.factors.push_back(rounded(std::lerp(wanted[i], plain[i], kUnlearned) / of[i]));
+        return how;
+    };
+    HowLightsArePicked how = pickedBy(lights.plain);
+    std::vector<double> shares;
+    for (size_t i = 0; i < plain.size(); ++i)
+        shares.push_back(plain[i] * how.factors[i]);
+    normalise(shares);
+    if (timeBy(plain) < kLeastGain * timeBy(shares)) return asPacked;
+    const bool isSkySampled = packed.lights.ambientNumber != gpu::NO_LIGHT;
+    const bool areMany = isSkySampled && shares.size() > kManyLamps &&
+                         1 - shares[packed.lights.ambientNumber] >= kShareOfManyLamps;
+    return areMany ? pickedBy(LightChoice::Tree) : how;
+}
+
+} // namespace stromboli

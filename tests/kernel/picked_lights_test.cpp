@@ -1,0 +1,192 @@
+// Lights that are picked by how much of their light arrives: no bias for any factors, lights behind
+// walls get few samples, and trees hold what they are given.
+#include "host/kernel/arriving_light.hpp"
+#include "host/kernel/light_table.hpp"
+#include "tests/kernel/window_room.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+/// The room with a window of that side, with lamps below its ceiling under a bright sky.
+Scene roomWithLamps(float window, uint32_t lamps) {
+    scenes::SceneMaker b;
+    b.scene = roomWithWindow(window);
+    b.scene.environment->strength = 100;
+    const uint32_t shining = b.add(scenes::emissive(3));
+    for (uint32_t i = 0; i < lamps; ++i)
+        b.sphere({0.5f - 0.3f * float(i / 4), 0.8f, -0.6f + 0.3f * float(i % 4)}, 0.05f, shining);
+    return b.scene;
+}
+
+GpuScene packedFor(const Scene& scene) {
+    return packScene(scene, buildWideBvh(scene));
+}
+
+float probabilityOfSky(const LightTable& lights) {
+    return structureAt<gpu::LightEntry>(lights.table, lights.ambientNumber).probability;
+}
+
+/// The probability of each light as one group's tree picks it, were all lights as near and turned
+/// alike.
+std::vector<double> powersOf(const LightTable& lights) {
+    std::vector<double> power;
+    for (uint32_t i = 0; i < 2 * lights.count; ++i) {
+        const Row row = lights.table[lights.count + i];
+        power.push_back(std::bit_cast<float>(
+            std::bit_cast<gpu::LightNode>(std::array{row, Row{}}).radiusAndPower << 16));
+    }
+    return power;
+}
+
+TEST(PickedLights, ASkyBehindWallsIsLeftToFewSamples) {
+    GpuScene closed = packedFor(roomWithLamps(0, 3));
+    ASSERT_EQ(closed.lights.choice, LightChoice::Power);
+    EXPECT_GT(probabilityOfSky(closed.lights), 0.99);
+    const Scene scene = roomWithLamps(0, 3);
+    const HowLightsArePicked how = howToPick(scene, closed, kRoomView, false);
+    EXPECT_EQ(how.choice, LightChoice::Power);
+    ASSERT_EQ(how.factors.size(), 4u);
+    EXPECT_TRUE(pickBy(closed.lights, how.choice, how.factors));
+    // A tenth of what it had, and little more for what is not known of it.
+    EXPECT_GT(probabilityOfSky(closed.lights), 0.05);
+    EXPECT_LT(probabilityOfSky(closed.lights), 0.3);
+    EXPECT_TRUE(pickBy(closed.lights, closed.lights.weighed->plain, {})) << "another camera";
+    EXPECT_EQ(closed.lights.table, packedFor(scene).lights.table);
+    EXPECT_FALSE(pickBy(closed.lights, closed.lights.weighed->plain, {}));
+}
+
+TEST(PickedLights, AreAsPackedWhereAllOfThemArrive) {
+    scenes::SceneMaker b;
+    const uint32_t white = b.add(scenes::diffuse(0.6f));
+    b.quad({-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);
+    const uint32_t shining = b.add(scenes::emissive(3));
+    for (const float x : {-0.5f, 0.0f, 0.5f})
+        b.sphere({x, 1, 0}, 0.1f, shining);
+    const GpuScene floor = packedFor(b.scene);
+    const HowLightsArePicked how =
+        howToPick(b.scene, floor, lookingAt({0, 0.5, 1.5}, {0, -1, 0}, 0.5), false);
+    EXPECT_EQ(how.choice, LightChoice::Tree);
+    EXPECT_TRUE(how.factors.empty());
+}
+
+TEST(PickedLights, ManyLampsBesideAHiddenSkyAreToldApartByATree) {
+    const Scene scene = roomWithLamps(0, 9);
+    GpuScene closed = packedFor(scene);
+    EXPECT_EQ(closed.lights.choice, LightChoice::Power);
+    EXPECT_EQ(closed.lights.groups, 0u) << "no tree in the kernel";
+    const HowLightsArePicked how = howToPick(scene, closed, kRoomView, false);
+    EXPECT_EQ(how.choice, LightChoice::Tree);
+    EXPECT_TRUE(pickBy(closed.lights, how.choice, how.factors));
+    EXPECT_EQ(closed.lights.groups, 1u << gpu::LIGHT_GROUP_NEAR | 1u << gpu::LIGHT_GROUP_INFINITE);
+    EXPECT_EQ(closed.lights.table.size(), 5 * closed.lights.count);
+}
+
+/// A lamp in a cupboard, which nothing that is seen is lit by.
+TEST(PickedLights, ALampBehindWallsIsLeftToFewSamples) {
+    scenes::SceneMaker b;
+    b.scene = roomWithLamps(0, 2);
+    b.scene.environment.reset();
+    const uint32_t white = b.add(scenes::diffuse(0.6f)), bright = b.add(scenes::emissive(300));
+    b.box({0.3f, -0.9f, -0.9f}, {0.8f, -0.4f, -0.4f}, white);
+    b.sphere({0.55f, -0.65f, -0.65f}, 0.1f, bright);
+    GpuScene scene = packedFor(b.scene);
+    ASSERT_EQ(scene.lights.choice, LightChoice::Tree);
+    uint32_t hidden = 0; // the brightest
+    for (uint32_t i = 0; i < scene.lights.count; ++i)
+        if (scene.lights.weighed->bounds[i].power > scene.lights.weighed->bounds[hidden].power)
+            hidden = i;
+    const HowLightsArePicked how = howToPick(b.scene, scene, kRoomView, false);
+    ASSERT_EQ(how.factors.size(), 3u);
+    for (uint32_t i = 0; i < 3; ++i)
+        if (i != hidden) {
+            EXPECT_LT(how.factors[hidden], 0.3 * how.factors[i]);
+        }
+}
+
+TEST(PickedLights, TreesHoldThePowersThatTheyAreGiven) {
+    const Scene scene = roomWithLamps(0, 7);
+    GpuScene room = packedFor(scene);
+    pickBy(room.lights, LightChoice::Tree, {});
+    const std::vector<double> plain = powersOf(room.lights);
+    std::vector<double> factors;
+    for (uint32_t i = 0; i < room.lights.count; ++i)
+        factors.push_back(i + 1.0);
+    pickBy(room.lights, LightChoice::Tree, factors);
+    const std::vector<double> given = powersOf(room.lights);
+    uint32_t first = 0;
+    for (const uint32_t count : room.lights.lightsInGroup) {
+        std::vector<double> sum(2 * size_t(count));
+        for (uint32_t node = 2 * count; node-- > 1;) {
+            const uint32_t number = first + node - count;
+            if (node >= count)
+                sum[node] = room.lights.weighed->bounds[number].power * factors[number];
+            else
+                sum[node] = sum[2 * node] + sum[2 * node + 1];
+            EXPECT_GE(given[2 * first + node], sum[node]) << node;
+            EXPECT_LE(given[2 * first + node], sum[node] * (1 + 0x1p-6)) << node;
+        }
+        if (count > 0) {
+            EXPECT_NE(given[2 * first + 1], plain[2 * first + 1]);
+        }
+        first += count;
+    }
+}
+
+class PickedLight : public DeviceTest {
+  protected:
+    Film pictureOf(const Scene& loaded, LightChoice choice, std::span<const double> factors,
+                   uint32_t seed) {
+        RenderSettings settings;
+        settings.area.width = 48, settings.area.height = 36;
+        settings.budget.mostSamplesPerPixel = 256;
+        settings.estimator.maxBounces = 3;
+        settings.estimator.seed = seed;
+        GpuScene scene =
+            packScene(loaded, buildWideBvh(loaded), lightSelection(settings.estimator));
+        EXPECT_TRUE(scene.lights.weighed);
+        if (choice != LightChoice::Automatic) pickBy(scene.lights, choice, factors);
+        VulkanBackend backend(testDevice(), scene, kRoomView, settings);
+        return render(backend, settings);
+    }
+};
+
+/// Light samples know how likely lights are to be picked, and share what bounces find by that.
+TEST_F(PickedLight, HasNoBiasForAnyFactors) {
+    Scene scene = roomWithLamps(1, 4);
+    scene.environment->strength = 1;
+    const Film plain = pictureOf(scene, LightChoice::Automatic, {}, 1);
+    const std::vector<double> any = {0.1, 7, 0.5, 2, 30};
+    expectAgreement(plain, pictureOf(scene, LightChoice::Power, any, 2), "an alias table");
+    expectAgreement(plain, pictureOf(scene, LightChoice::Tree, any, 3), "a tree");
+}
+
+/// Where a sky outshines lamps and does not arrive, and with it all but a few of the samples.
+TEST_F(PickedLight, HasLessNoiseBehindClosedWindows) {
+    const Scene scene = roomWithLamps(0, 4);
+    const GpuScene closed = packedFor(scene);
+    const HowLightsArePicked how = howToPick(scene, closed, kRoomView, false);
+    const auto variance = [](const Film& film) {
+        double sum = 0;
+        for (const PixelStatistics& p : film.pixels)
+            sum += p.m2.y / (double(p.count) - 1);
+        return sum;
+    };
+    const Film plain = pictureOf(scene, LightChoice::Automatic, {}, 1),
+               picked = pictureOf(scene, how.choice, how.factors, 2);
+    expectAgreement(plain, picked, "a closed room");
+    EXPECT_LT(variance(picked), 0.1 * variance(plain));
+}
+
+} // namespace
+} // namespace stromboli
