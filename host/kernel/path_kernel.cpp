@@ -42,6 +42,9 @@ struct FieldConditions {
     bool samplesHaveWeights() const {
         return PIXEL_FILTER == gpu::FILTER_TABLE;
     }
+    bool endsByThroughput() const {
+        return ROULETTE == gpu::ROULETTE_THROUGHPUT;
+    }
     bool emissionHasFactors() const {
         return sceneHasSlot(gpu::TEXTURE_EMISSION) || HAS_ALPHA != 0;
     }

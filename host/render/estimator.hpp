@@ -149,13 +149,14 @@ struct FilterShape {
 
 /// How a light sample picks one of the lights (docs/theory/estimator.md, "Which light").
 enum class LightChoice {
-    /// What suits the lights: Tree, but Each of two, and Power in a single small mesh or where a sky
+    /// What suits the lights: Tree, but Each of two, and Power in a single small mesh or where a
+    /// sky
     /// outshines the others; Tree and Power by how much of each light arrives.
     Automatic,
-    Tree,      ///< by what it is likely to bring to the surface
-    Power,     ///< by its power
-    Uniform,   ///< the control
-    Each,      ///< no choice: every light in turn
+    Tree,    ///< by what it is likely to bring to the surface
+    Power,   ///< by its power
+    Uniform, ///< the control
+    Each,    ///< no choice: every light in turn
 };
 template <>
 inline constexpr auto kNamedValues<LightChoice> = std::to_array<NamedValue<LightChoice>>({
@@ -170,7 +171,8 @@ struct Roulette {
     enum class Mode {
         None,
         Throughput, ///< after bounce throughputStart continue with probability
-                    ///< min(1, kBoldness * largest component of the throughput)
+                    ///< min(1, kBoldness * largest component of the throughput); kernels
+                    ///< with more where it is bright (shaders/include/roulette.glsl)
         Fixed,      ///< terminate with terminationProbability at every hit, before direct light
     };
     static constexpr uint32_t kThroughputStart = 3;

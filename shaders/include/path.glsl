@@ -7,6 +7,7 @@
 #include "include/media.glsl"
 #include "include/seeing.glsl"
 #include "include/guide_notes.glsl"
+#include "include/roulette.glsl"
 #include "include/recording.glsl"
 #include "include/through_glass.glsl"
 
@@ -44,6 +45,7 @@ void finishShadowRay(const Frame frame, inout PathState path) {
     if (path.ray.hitPrimitive == NO_PRIMITIVE) {
         const vec3 light = limited(path, path.throughput * path.directValue);
         path.radiance += light;
+        noteBrightness(path, path.directValue);
         if (RECORDS) recordArrivedLight(path, light);
     } else if (mayBeGlass && dot(path.glass.share, vec3(1.0)) > 0.0) {
         enterGlass(path);
@@ -185,6 +187,7 @@ void nextBranch(inout PathState path, Material material) {
     if (AIMS_BOUNCES) path.aim.weight = 1.0; // only surfaces that do not aim come before,
     path.glass.isFromLit = false;            // nor take light samples
     path.bounce = path.splitPoint.bounce;
+    path.brightness = 0.0;
     if (WALKS) path.uncounted = path.splitPoint.uncounted;
     path.filling = path.splitPoint.filling;
     path.phase = PHASE_BOUNCE;
@@ -217,11 +220,12 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
         if (SEES) endAtNothing(path.seen, vec3(0.0), path.firstNormal);
         return;
     }
-    if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START && !isThroughGlass(path)) {
-        const float q = min(1.0, ROULETTE_BOLDNESS * largest);
+    if (endsByThroughput() && path.bounce >= ROULETTE_START && !isThroughGlass(path)) {
+        const float q = survival(path, largest);
         if (roulette >= q) return;
         path.throughput *= 1.0 / q;
     }
+    if (!isThroughGlass(path)) fadeBrightness(path);
     if (GAP_PROPOSAL || AIMS_BOUNCES) path.throughput *= mixtureWeight;
     const bool transmitted = isTransmission(b.lobe);
     path.countsEmission = emissionCounts(given.frame, path, b.lobe);
@@ -246,6 +250,7 @@ void beginSample(const Frame frame, inout PathState path) {
     path.uncounted = 0u;
     path.throughput = vec3(1.0);
     path.radiance = vec3(0.0);
+    path.brightness = 0.0;
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
     if (AIMS_BOUNCES) path.aim = NO_AIM;

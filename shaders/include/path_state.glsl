@@ -52,6 +52,7 @@ struct PathState {
     uint uncounted; ///< of these: under surfaces, which do not count for the most and the fewest there may be
     vec3 throughput;
     vec3 radiance;
+    float brightness; ///< the most that light samples have brought, by the throughput there, halved at each bounce since
     Filling filling;       ///< that the path ray goes through
     Filling shadowFilling; ///< likewise, the light sample's ray under way; in scenes with media
     Crossing crossing;    ///< of the ray under way, where rays pass borders

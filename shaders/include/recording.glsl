@@ -89,8 +89,8 @@ void recordArrivedLight(PathState path, vec3 light) {
 /// proposals, where the bounce's density is not that of the mixture.
 void recordBounce(inout PathState path, BsdfSample b, float largest, float number, float mixtureWeight) {
     PathEvent e = eventOf(EVENT_BOUNCE, path);
-    if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START)
-        e.roulette = min(1.0, ROULETTE_BOLDNESS * largest);
+    if (endsByThroughput() && path.bounce >= ROULETTE_START)
+        e.roulette = survival(path, largest);
     e.name = b.lobe;
     e.place = path.surface.position;
     e.distance = number;

@@ -11,6 +11,8 @@ const bool SEES_SURFACES = INTEGRATOR == INTEGRATOR_LAYERS;
 const bool SEES = SEES_SURFACES || INTEGRATOR == INTEGRATOR_COVERAGE;
 /// Whether samples have weights by their place about the pixel, some of them negative.
 bool samplesHaveWeights() { return PIXEL_FILTER == FILTER_TABLE; }
+/// Whether paths end at random by their throughput.
+bool endsByThroughput() { return ROULETTE == ROULETTE_THROUGHPUT; }
 /// Whether some material of the scene has one of these bits (shared/parameters.h), or each that they concern.
 bool sceneHas(uint bits) { return (CLOSURES & bits) != 0u; }
 bool sceneHasOnly(uint bit) { return (CLOSURES_OF_ALL & bit) != 0u; }

@@ -83,7 +83,8 @@ SHARED_CONST uint LIGHT_CHOICE_EACH = 4u; ///< all of them in turn
 SHARED_CONST uint ROULETTE_NONE = 0u;
 SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;
 SHARED_CONST uint ROULETTE_FIXED = 2u;
-SHARED_CONST float ROULETTE_BOLDNESS = 3.0f; // probability to go on, over throughput
+SHARED_CONST float ROULETTE_BOLDNESS = 3.0f;   // probability to go on, over throughput
+SHARED_CONST float ROULETTE_BRIGHTNESS = 4.0f; // likewise, times how bright it is beside the sample (roulette.glsl)
 
 /// A stretch of a pixel filter along columns or rows, one of FILTER_CELLS that are met equally often.
 struct FilterCell {

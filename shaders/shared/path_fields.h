@@ -84,6 +84,7 @@
     F(uint, path.ray.hitPlacement, HAS_PLACEMENTS, BY_ALL, BY_TRACE) \
     F(vec3, path.throughput, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(vec3, path.radiance, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(float, path.brightness, endsByThroughput(), BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     FILLING_FIELDS(F, path.filling, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     FILLING_FIELDS(F, path.shadowFilling, MEDIA != 0u, BY_FOLLOW, BY_FOLLOW | BY_LIGHT) \
     FILLING_FIELDS(F, path.crossing.filling, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli {
@@ -140,6 +141,58 @@ TEST_F(Retracing, FollowsLightSamplesThroughGlass) {
             << "pixel and sample " << i;
     }
     EXPECT_GT(arrive, kPaths);
+}
+
+/// A dark room and a lit one, with a gap between them, seen from the dark one.
+Scene roomBesideALitOne() {
+    scenes::SceneMaker b;
+    const uint32_t white = b.add(scenes::diffuse(0.7f)), shine = b.add(scenes::emissive(50));
+    const glm::vec3 low(-1), x(2, 0, 0), y(0, 2, 0), z(0, 0, 2);
+    b.quad(low, z, x, white), b.quad(low + y, x, z, white), b.quad(low, y, z, white);
+    b.quad(low + x, z, y, white), b.quad(low, x, y, white), b.quad(low + z, y, x, white);
+    b.quad({0, -1, -1}, {0, 2, 0}, {0, 0, 1.6f}, white);
+    b.sphere({0.6f, 0.5f, -0.6f}, 0.1f, shine);
+    return b.scene;
+}
+
+/// Roulette by throughput spares what comes to where it is bright, as the documents say it does.
+TEST_F(Retracing, RouletteSparesPathsWhereItIsBright) {
+    const Scene scene = roomBesideALitOne();
+    RenderSettings s;
+    s.area = {32, 24, {}};
+    s.estimator.branches = 1;
+    s.estimator.gapProposal = false;
+    s.estimator.maxBounces = 12;
+    const Camera camera = lookingAt({-0.9, 0.5, 0.8}, {-0.3, -0.4, -0.5}, 0.9);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    VulkanBackend device(testDevice(), gpu, camera, s);
+    const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
+    size_t asked = 0, spared = 0;
+    for (uint32_t i = 0; i < s.area.pixelCount(); ++i) {
+        double brightness = 0;
+        glm::dvec3 radiance(0);
+        const RecordedPath path = device.record(i, i);
+        for (size_t v = 0; v < path.vertices.size(); ++v) {
+            const RecordedVertex& at = path.vertices[v];
+            radiance += at.light;
+            for (const RecordedLight& light : at.lights) {
+                radiance += light.light;
+                if (light.fate == RecordedLight::Fate::Arrives)
+                    brightness = std::max(brightness, largest(light.light / at.throughput));
+            }
+            if (at.bounce && v + 1 >= Roulette().throughputStart) {
+                const double throughput = largest(at.bounce->throughput) * at.bounce->goesOn,
+                             beside = 4 * brightness / std::max(largest(radiance), 1e-30),
+                             expected = std::min(1.0, throughput * std::max(3.0, beside));
+                EXPECT_NEAR(at.bounce->goesOn, expected, 1e-4 * expected) << i << " " << v;
+                ++asked;
+                spared += at.bounce->goesOn > 1.5 * std::min(1.0, 3 * throughput);
+            }
+            brightness *= 0.5;
+        }
+    }
+    EXPECT_GT(asked, s.area.pixelCount());
+    EXPECT_GT(spared, asked / 100);
 }
 
 /// Rays of both pass the same surfaces, also where they meet nothing in the end.
