@@ -2,6 +2,7 @@
 
 #include "host/kernel/lamp_light.hpp"
 #include "host/kernel/seen_places.hpp"
+#include "shaders/shared/medium_types.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +78,7 @@ class Asker {
   private:
     Found follow(const Place& place, const glm::dvec3& w) const {
         const glm::dvec3 n = glm::dot(w, place.normal) < 0 ? -place.normal : place.normal;
-        return rays_.follow(rays_.leave(place.point, n, w, place.hit));
+        return rays_.followToLight(rays_.leave(place.point, n, w, place.hit));
     }
 
     /// Of light from direction w: 0 where it falls on the side that is not lit.
@@ -350,6 +351,8 @@ HowLightsArePicked howToPick(const Scene& scene, const GpuScene& packed, const C
                              bool goThroughGlass) {
     const WeighedLights& lights = *packed.lights.weighed;
     const HowLightsArePicked asPacked{lights.plain, {}};
+    // Samples that media take are not asked for.
+    if (packed.media & gpu::MEDIA_SCATTER) return asPacked;
     const std::vector<Known> known = knownOf(askAround(scene, packed, camera, goThroughGlass),
                                              packed.lights, !packed.portals.all.empty());
     double sent = 0, arrived = 0;

@@ -7,13 +7,28 @@ namespace stromboli {
 
 // --- Rays ----------------------------------------------------------------------------------------
 
+/// Surfaces that may be partly not there, which a ray goes straight through at most.
+constexpr int kMostGaps = 64;
+
 bool Found::keepsDirection(const glm::vec3& first) const {
     const glm::dvec3 turn = glm::dvec3(ray.direction) - glm::dvec3(first);
     return glm::dot(turn, turn) <= double(gpu::SAME_DIRECTION);
 }
 
-Found SceneRays::follow(const TraversalRay& ray) const {
+Found SceneRays::followToLight(const TraversalRay& ray) const {
     Found found{ray, closestHit(packed_.bvh, ray)};
+    for (int gap = 0; gap < kMostGaps && found.hit && mayBeNotThere(found.hit); ++gap) {
+        goThrough(packed_.bvh, found.ray, found.hit);
+        found.hit = closestHit(packed_.bvh, found.ray);
+    }
+    return throughGlass(found);
+}
+
+Found SceneRays::follow(const TraversalRay& ray) const {
+    return throughGlass({ray, closestHit(packed_.bvh, ray)});
+}
+
+Found SceneRays::throughGlass(Found found) const {
     while (goThroughGlass_ && found.hit && isClear(found.hit) &&
            found.panes < int(gpu::MOST_PANES)) {
         const std::optional<TraversalRay> bent = throughSurface(found.ray, found.hit);
@@ -23,6 +38,11 @@ Found SceneRays::follow(const TraversalRay& ray) const {
         ++found.panes;
     }
     return found;
+}
+
+bool SceneRays::mayBeNotThere(const TraversalHit& hit) const {
+    const Material& m = scene_.materials[materialNumberAt(scene_, packed_.bvh, hit.primitive)];
+    return m.alphaMode != AlphaMode::Opaque;
 }
 
 bool SceneRays::isClear(const TraversalHit& hit) const {

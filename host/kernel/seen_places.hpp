@@ -35,6 +35,10 @@ class SceneRays {
 
     /// Follows a ray through clear glass, bent, as far as that lets it through.
     Found follow(const TraversalRay& ray) const;
+    /// Before that it goes straight through what may be partly not there: leaves that are cut out,
+    /// veils, borders of media. How much of them is there is not looked up, so that more is found
+    /// than arrives.
+    Found followToLight(const TraversalRay& ray) const;
 
     bool isClear(const TraversalHit& hit) const;
     bool emits(const TraversalHit& hit) const;
@@ -46,6 +50,8 @@ class SceneRays {
                        const TraversalHit& hit) const;
 
   private:
+    Found throughGlass(Found found) const;
+    bool mayBeNotThere(const TraversalHit& hit) const;
     double indexAt(const TraversalHit& hit) const;
     std::optional<TraversalRay> throughSurface(const TraversalRay& ray,
                                                const TraversalHit& hit) const;

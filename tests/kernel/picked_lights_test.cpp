@@ -66,6 +66,25 @@ TEST(PickedLights, ASkyBehindWallsIsLeftToFewSamples) {
     EXPECT_FALSE(pickBy(closed.lights, closed.lights.weighed->plain, {}));
 }
 
+/// Light comes through a curtain of which most is not there.
+TEST(PickedLights, ASkyBehindAVeilKeepsItsSamples) {
+    scenes::SceneMaker b;
+    b.scene = roomWithLamps(1, 3);
+    Material veil = scenes::diffuse(0.6f);
+    veil.alphaMode = AlphaMode::Blend;
+    veil.opacity = 0.2f;
+    b.quad({-0.95f, -1, -1}, {0, 2, 0}, {0, 0, 2}, b.add(veil));
+    const GpuScene scene = packedFor(b.scene);
+    const HowLightsArePicked how = howToPick(b.scene, scene, kRoomView, false);
+    if (!how.factors.empty()) {
+        EXPECT_GT(how.factors[scene.lights.ambientNumber], 0.5);
+    }
+    b.scene.materials.back().alphaMode = AlphaMode::Opaque;
+    const GpuScene dark = packedFor(b.scene);
+    EXPECT_LT(howToPick(b.scene, dark, kRoomView, false).factors.at(dark.lights.ambientNumber),
+              0.3);
+}
+
 TEST(PickedLights, AreAsPackedWhereAllOfThemArrive) {
     scenes::SceneMaker b;
     const uint32_t white = b.add(scenes::diffuse(0.6f));
