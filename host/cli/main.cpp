@@ -94,7 +94,7 @@ int finished(int code) try {
 int main(int argc, char** argv) {
     reserveStandardStreams();
     setUpLogging(Verbosity::Normal, status_line::clear);
-    process::keepFreedMemory();
+    process::useMemoryInLargePieces();
     process::useWideVectors();
     try {
         return finished(runLine({argv + 1, argv + argc}));

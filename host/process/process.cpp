@@ -1,5 +1,7 @@
 #include "host/process/process.hpp"
 
+#include "host/core/pages.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -60,14 +62,18 @@ void useDriverThreads(uint32_t threads) {
     ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
-void keepFreedMemory() {
+void useMemoryInLargePieces() {
 #ifdef __GLIBC__
-    constexpr int kKept = 256 << 20; // bytes: the plan of a picture of two million pixels
+    constexpr size_t kInHugePages = size_t(512) << 20; // as much as starts of most scenes ask for
+    constexpr int kKept = 1 << 30; // more than that, or it would go back at once
     ::mallopt(M_TRIM_THRESHOLD, kKept);
     ::mallopt(M_MMAP_THRESHOLD, kKept);
     // A thread's own arena asks the system for each 4 KiB more; that of all asks for this much.
     ::mallopt(M_ARENA_MAX, 1);
     ::mallopt(M_TOP_PAD, 1 << 20);
+    void* const heap = std::malloc(kInHugePages); // addresses, behind which there is nothing yet
+    if (heap) preferHugePages({static_cast<std::byte*>(heap), kInHugePages});
+    std::free(heap);
 #endif
 }
 

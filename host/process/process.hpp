@@ -18,10 +18,11 @@ void useWideVectors();
 /// Has lavapipe work on so many threads. To be called as useWideVectors() is.
 void useDriverThreads(uint32_t threads);
 
-/// Freed memory is kept for what is asked for next, by whatever thread: between two passes the plan
-/// takes and frees many times the picture, and to have its pages zeroed anew each time is 5 % of a
-/// render's CPU time. The driver compiles kernels on a thread of its own, which would otherwise ask
-/// the system for memory thousands of times.
-void keepFreedMemory();
+/// Memory comes from the system in pages of 2 MiB, where it has them, and is kept when it is freed
+/// for what is asked for next, by whatever thread. Small pages are asked for one at a time, which
+/// is a fifth of a start's CPU time in virtual machines; between two passes the plan takes and
+/// frees many times the picture; and the driver compiles kernels on a thread of its own, which
+/// would ask thousands of times. To be called before much is allocated.
+void useMemoryInLargePieces();
 
 } // namespace stromboli::process
