@@ -201,8 +201,6 @@ int infoCommand(const InfoOptions& options) {
     const RenderSettings& settings = picture.settings;
     BuiltScene built = buildScene(*scene.scene, settings.estimator, toTerminal());
     fitToPicture(built.gpu, *scene.scene, picture.camera, settings.estimator);
-    if (!built.gpu.portals.all.empty() || !seesSkyInPart(built.gpu, picture.camera))
-        prepared.picture.settings.estimator.guidesLight = false; // else it is tried
     nowDoing("printing", StatusLine::OfOthers);
     if (!options.jsonFile.empty()) {
         writeOutput(options.jsonFile, infoJson(prepared, built).dump(2) + "\n");

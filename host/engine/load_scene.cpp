@@ -8,6 +8,7 @@
 #include "host/kernel/find_portals.hpp"
 #include "host/kernel/glass_before_lights.hpp"
 #include "host/kernel/kernel_features.hpp"
+#include "host/kernel/light_notes.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/model/default_light.hpp"
 #include "scene/read_scene.hpp"
@@ -173,6 +174,9 @@ std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Ca
                                           goThroughGlass ? clearGlassOf(built) : SeesThrough())
                             : statedPortals(scene.portals, camera);
     }
+    built.guide.reset();
+    if (mayGuideLight(built, estimator) && built.portals.all.empty())
+        built.guide = guideThatPays(scene, built, camera, goThroughGlass);
     if (!built.lights.weighed) return {};
     HowLightsArePicked how{built.lights.weighed->plain, {}};
     if (samplesLights(estimator.directLight) && estimator.integrator == Integrator::Path)

@@ -98,8 +98,9 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
 /// Brings into the kernel's arrays of `scene` what follows from the picture to come.
 /// GpuScene::portals: those of the scene, or else those that are found for what this camera sees;
 /// none where light samples go to no sky, or shall aim at none. GpuScene::ofRay, unless it
-/// is known: pictures of other cameras keep it, and the kernel with it. GpuScene::lights: picked by
-/// how much of their light arrives (howToPick()). Returns the bindings whose contents have changed.
+/// is known: pictures of other cameras keep it, and the kernel with it. GpuScene::guide: where
+/// light samples may be guided and that pays (guideThatPays()). GpuScene::lights: picked by how
+/// much of their light arrives (howToPick()). Returns the bindings whose contents have changed.
 std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                                    const Estimator& estimator);
 

@@ -2,6 +2,7 @@
 
 #include "host/kernel/lamp_light.hpp"
 #include "host/kernel/seen_places.hpp"
+#include "host/kernel/sky_picture.hpp"
 #include "shaders/shared/medium_types.h"
 
 #include <algorithm>
@@ -57,11 +58,7 @@ class Asker {
   public:
     Asker(const Scene& scene, const GpuScene& packed, bool goThroughGlass)
         : packed_(packed), rays_(scene, packed, goThroughGlass) {
-        if (const auto& sky = packed.lights.environment) {
-            tiles_.resize(sky->tileProbability.size());
-            std::partial_sum(sky->tileProbability.begin(), sky->tileProbability.end(),
-                             tiles_.begin());
-        }
+        if (packed.lights.environment) sky_.emplace(*packed.lights.environment);
     }
 
     const SceneRays& rays() const { return rays_; }
@@ -87,14 +84,14 @@ class Asker {
         return place.isLitFromBehind ? std::abs(cosine) : std::max(cosine, 0.0);
     }
 
-    /// The environment by the tiles of its picture, other ambient light by the cosine.
+    /// The environment by its picture, other ambient light by the cosine.
     Asked askSky(const Place& place, const LightBounds& bounds, Random& random) const {
         Asked asked;
         const bool isBehind = place.isLitFromBehind && random.uniform() < 0.5f;
         glm::dvec3 w(aboutNormal(isBehind ? -place.normal : place.normal, random));
         asked.light = bounds.power * (place.isLitFromBehind ? 2 : 1);
-        if (!tiles_.empty()) {
-            w = directionInTile(random);
+        if (sky_) {
+            w = sky_->sample(random);
             asked.light = packed_.lights.environment->luminance * cosineAt(place, w);
         }
         if (!(asked.light > 0)) return {};
@@ -102,22 +99,6 @@ class Asker {
         asked.arrives = !found.hit && found.keepsDirection(glm::vec3(w));
         asked.segments = 1 + found.panes;
         return asked;
-    }
-
-    /// As tileOf() has tiles.
-    glm::dvec3 directionInTile(Random& random) const {
-        const gpu::EnvironmentLight& e = packed_.lights.environment->light;
-        const auto at = std::ranges::upper_bound(tiles_, random.uniform() * tiles_.back());
-        const uint32_t tile = std::min(uint32_t(at - tiles_.begin()), e.tiles - 1),
-                       side = 1u << e.tileShift;
-        const double column = (tile % e.tilesAcross + double(random.uniform())) * side,
-                     row = (tile / e.tilesAcross + double(random.uniform())) * side;
-        const double around = (std::min(column / e.width, 1.0) - 0.5) * 2 * std::numbers::pi,
-                     polar = std::min(row / e.height, 1.0) * std::numbers::pi;
-        const glm::dvec3 d(std::sin(around) * std::sin(polar), std::cos(polar),
-                           -std::cos(around) * std::sin(polar));
-        const double c = e.cosRotation, s = e.sinRotation;
-        return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
     }
 
     Asked askLamp(const Place& place, const Lamp& lamp, const LightBounds& bounds,
@@ -175,7 +156,7 @@ class Asker {
 
     const GpuScene& packed_;
     SceneRays rays_;
-    std::vector<double> tiles_; ///< probabilities, summed up
+    std::optional<SkyPicture> sky_;
 };
 
 /// All samples of one light at a place.

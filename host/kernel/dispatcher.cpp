@@ -97,7 +97,7 @@ Dispatcher::Dispatcher(const DispatchTarget& target, const PathKernel& kernel,
         for (const Buffer& b : target.scene.buffers())
             buffers.push_back(&b);
         buffers.insert(buffers.end(), {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_,
-                                       &target.filter, &target.guide, &target.lightNotes});
+                                       &target.filter, &target.guide});
         if (queues_) buffers.push_back(&*queues_);
         sets_.push_back(
             std::make_unique<vulkan::DescriptorSet>(device_, kernel.pipeline(), buffers));

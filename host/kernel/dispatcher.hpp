@@ -45,9 +45,8 @@ struct DispatchTarget {
     const vulkan::Device& device;
     const DeviceScene& scene;
     std::span<const FilmSegment> film;
-    const vulkan::Buffer& filter;     ///< the picture's table (sampling_tables.hpp)
-    const vulkan::Buffer& guide;      ///< what guiding has learnt, or portals; without either, any
-    const vulkan::Buffer& lightNotes; ///< what it learns from; likewise
+    const vulkan::Buffer& filter; ///< the picture's table (sampling_tables.hpp)
+    const vulkan::Buffer& guide;  ///< what guiding has learnt, or portals; without either, any
 };
 
 /// How it does so.

@@ -5,6 +5,7 @@
 #include "host/kernel/detail_rows.hpp"
 #include "host/kernel/find_lit_cells.hpp"
 #include "host/kernel/find_portals.hpp"
+#include "host/kernel/light_guide.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/material_rows.hpp"
 #include "host/kernel/rows.hpp"
@@ -27,6 +28,8 @@ struct GpuScene {
     DetailRows details; ///< attributes of corners, and texels
     LightTable lights;
     Portals portals; ///< of the picture to come; packScene() leaves it empty
+    std::optional<LightGuide>
+        guide; ///< likewise (guideThatPays()); none: light samples are not guided
     std::optional<LitCells>
         lit; ///< where bounces aim; none: not looked for, as packScene() leaves it
     double glassBeforeLights =

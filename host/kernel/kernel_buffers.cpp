@@ -1,6 +1,5 @@
 #include "host/kernel/kernel_buffers.hpp"
 
-#include "host/kernel/light_guide.hpp"
 #include "host/kernel/path_kernel.hpp"
 #include "host/kernel/sampling_tables.hpp"
 #include "host/render/kept_pixels.hpp"
@@ -69,11 +68,8 @@ uint64_t largestSceneBuffer(const GpuScene& scene) {
 
 uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels) {
     const uint64_t items = std::min<uint64_t>(DeviceTuning{}.itemsPerDispatch, pixels);
-    const uint64_t notes =
-        scene.lights.environment
-            ? mostNotedPaths(kNotedPixels) * gpu::GUIDE_VERTICES * sizeof(gpu::LightNote)
-            : 0;
-    return std::max({largestSceneBuffer(scene), items * sizeof(gpu::WorkItem), notes});
+    const uint64_t guide = scene.guide ? sizeOf(scene.guide->rows) : 0;
+    return std::max({largestSceneBuffer(scene), items * sizeof(gpu::WorkItem), guide});
 }
 
 PathBuffers pathBuffers(const KernelFeatures& features, uint64_t lanes, PathScheduler scheduler) {
@@ -100,15 +96,8 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
     plans.push_back(paths.paths);
     if (paths.queues) plans.push_back(*paths.queues);
     plans.push_back({"pixel filter", filterRows(estimator.filter) * sizeof(Row), rows});
-    if (guidesLight(scene, estimator)) {
-        const uint64_t guideRows =
-            gpu::GUIDE_NODES + uint64_t(gpu::GUIDE_CELLS) * gpu::GUIDE_TABLE_ROWS;
-        plans.push_back({"light guide", guideRows * sizeof(Row), rows});
-        plans.push_back({"notes of light samples",
-                         mostNotedPaths(uint64_t(area.width) * area.height) * gpu::GUIDE_VERTICES *
-                             sizeof(gpu::LightNote),
-                         rows});
-    }
+    if (guidesLight(scene, estimator))
+        plans.push_back({"light guide", scene.guide->rows.size() * sizeof(Row), rows});
     if (aimsBounces(scene, estimator))
         plans.push_back({"lit cells", scene.lit->rowCount() * sizeof(Row), rows});
     if (aimsAtPortals(scene, estimator))

@@ -243,25 +243,20 @@ bool lightsThroughGlass(const GpuScene& scene, const Estimator& settings) {
     return mayLightThroughGlass(scene, settings) && scene.glassBeforeLights >= kLeastShare;
 }
 
-bool guidesLight(const GpuScene& scene, const Estimator& settings) {
+bool mayGuideLight(const GpuScene& scene, const Estimator& settings) {
     return settings.guidesLight &&
            (lightKinds(scene, settings) & 1u << gpu::LIGHT_ENVIRONMENT) != 0;
+}
+
+bool guidesLight(const GpuScene& scene, const Estimator& settings) {
+    const bool aims = aimsAtPortals(scene, settings) && !scene.portals.all.empty();
+    return mayGuideLight(scene, settings) && scene.guide && !aims;
 }
 
 bool aimsAtPortals(const GpuScene& scene, const Estimator& settings) {
     constexpr uint32_t kSkies = 1u << gpu::LIGHT_ENVIRONMENT | 1u << gpu::LIGHT_AMBIENT;
     return settings.aimsAtPortals && (lightKinds(scene, settings) & kSkies) != 0 &&
            settings.conventions.ambientAboutNormal;
-}
-
-KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
-                              const Estimator& settings, const DeviceTuning& tuning) {
-    Estimator estimator = settings;
-    estimator.branches = 1;
-    estimator.guidesLight = estimator.aimsAtPortals = false;
-    KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
-    f[SPEC_NOTES_LIGHT] = 1;
-    return f;
 }
 
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,

@@ -28,11 +28,6 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning, Seeing what);
 
-/// Those of the kernel that notes light samples for the guide to learn from, of these settings
-/// without branches.
-KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
-                              const Estimator& settings, const DeviceTuning& tuning);
-
 /// Whether some bounces of these settings may go where lamps make it bright.
 bool mayAimBounces(const Estimator& settings);
 /// Whether they go to the scene's lit cells.
@@ -42,7 +37,9 @@ bool aimsBounces(const GpuScene& scene, const Estimator& settings);
 /// enough light came that way (GpuScene::glassBeforeLights).
 bool lightsThroughGlass(const GpuScene& scene, const Estimator& settings);
 bool mayLightThroughGlass(const GpuScene& scene, const Estimator& settings);
-/// Whether light samples of these settings go to an environment, and shall be guided.
+/// Whether light samples of these settings go to an environment, and shall be guided; and whether
+/// they are, where no portals are aimed at.
+bool mayGuideLight(const GpuScene& scene, const Estimator& settings);
 bool guidesLight(const GpuScene& scene, const Estimator& settings);
 /// Whether light samples of these settings go to the sky, and shall aim at the scene's portals.
 bool aimsAtPortals(const GpuScene& scene, const Estimator& settings);

@@ -10,8 +10,6 @@
 
 namespace stromboli {
 
-struct LightGuide; // light_guide.hpp
-
 // --- Tuning --------------------------------------------------------------------------------------
 
 /// Who decides what each lane does next (docs/theory/kernel.md, "Two schedulers").
@@ -40,8 +38,6 @@ struct KernelTuning {
     bool everythingOn = false; ///< leave in all features, also those the scene lacks (benchmark)
     /// Who puts the constants into the kernel's module (tests compare the two).
     vulkan::Specialiser specialiser = vulkan::Specialiser::Ours;
-    /// In place of one that is learnt, where light samples may be guided (tests).
-    std::shared_ptr<const LightGuide> guide;
 };
 
 /// How the kernel runs on a device: KernelTuning with nothing left open.

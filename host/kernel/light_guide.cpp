@@ -24,28 +24,24 @@ struct Try {
     Place place;
     uint32_t tile;
     double value; ///< what it brought
-    bool isOfOdd; ///< of a path of an odd number
+    bool isOfOdd;
 };
 
 /// Values above this quantile of those that are not 0 are taken for it, so that no cell is learnt
 /// from a single sample.
 constexpr double kLargestQuantile = 0.995;
 
-std::vector<Try> triesOf(std::span<const gpu::LightNote> notes,
-                         const gpu::EnvironmentLight& light) {
+std::vector<Try> triesOf(std::span<const LightNote> notes, const gpu::EnvironmentLight& light) {
     std::vector<Try> tries;
     std::vector<double> values;
     tries.reserve(notes.size());
-    for (size_t i = 0; i < notes.size(); ++i) {
-        const gpu::LightNote& r = notes[i];
+    for (const LightNote& r : notes) {
         const glm::vec3 p = r.position, n = r.normal, sum = p + n + r.direction;
         const bool isFinite = std::isfinite(sum.x + sum.y + sum.z);
-        if (r.direction == glm::vec3(0) || !isFinite) continue;
+        if (!isFinite) continue;
         const double value = std::isfinite(r.value) && r.value > 0 ? r.value : 0;
-        tries.push_back({{p.x, p.y, p.z, n.x, n.y, n.z},
-                         tileOf(light, r.direction),
-                         value,
-                         i / gpu::GUIDE_VERTICES % 2 == 1});
+        tries.push_back(
+            {{p.x, p.y, p.z, n.x, n.y, n.z}, tileOf(light, r.direction), value, r.isOfOdd});
         if (value > 0) values.push_back(value);
     }
     if (values.empty()) return tries;
@@ -283,8 +279,7 @@ std::vector<Row> guideRows(std::span<const gpu::GuideNode> nodes,
     return rows;
 }
 
-LightGuide learnLightGuide(std::span<const gpu::LightNote> notes,
-                           const EnvironmentTable& environment) {
+LightGuide learnLightGuide(std::span<const LightNote> notes, const EnvironmentTable& environment) {
     LightGuide guide;
     const std::vector<Try> tries = triesOf(notes, environment.light);
     if (tries.size() < LightGuide::kLeastNotes) return guide;

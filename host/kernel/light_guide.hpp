@@ -4,12 +4,19 @@
 #include "host/kernel/sampling_tables.hpp"
 #include "shaders/shared/guide_types.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace stromboli {
+
+/// A light sample to the environment, by its weight alone.
+struct LightNote {
+    glm::vec3 position{0}, normal{0}; ///< of the surface, on the side of the light
+    glm::vec3 direction{0};           ///< unit, to the light
+    float value = 0;                  ///< what it brings, in any unit; 0: it is shaded
+    bool isOfOdd = false; ///< of a place of an odd number: half of them tell what the others teach
+};
 
 /// By what light samples choose tiles of the environment, for points in each of many cells
 /// (docs/theory/estimator.md, "Learned light samples"): as the kernel reads it.
@@ -28,29 +35,13 @@ struct LightGuide {
     static constexpr size_t kLeastNotes = 4096;
 };
 
-/// Light samples are noted of a picture like the one that is rendered, of at most so many pixels.
-inline constexpr uint64_t kNotedPixels = 1u << 15;
-
-/// Samples of each pixel of that picture: two, and up to four of small ones, for as many paths.
-constexpr uint32_t notedSamples(uint64_t pixels) {
-    return uint32_t(std::clamp<uint64_t>(kNotedPixels / std::max<uint64_t>(pixels, 1), 2, 4));
-}
-
-/// A bound of the paths that are noted for a picture of so many pixels.
-constexpr uint64_t mostNotedPaths(uint64_t pixels) {
-    const uint64_t noted = std::min(pixels, kNotedPixels);
-    return std::max(2 * noted, std::min(4 * noted, kNotedPixels));
-}
-
 /// The rows of a guide. nodes: GUIDE_NODES, in their order; probabilities: for each of GUIDE_CELLS
 /// cells that of each tile, positive wherever that by weight is.
 std::vector<Row> guideRows(std::span<const gpu::GuideNode> nodes,
                            std::span<const std::vector<double>> probabilities,
                            const EnvironmentTable& environment);
 
-/// Notes that are all 0 are of no light sample. The result does not depend on the number of
-/// threads.
-LightGuide learnLightGuide(std::span<const gpu::LightNote> notes,
-                           const EnvironmentTable& environment);
+/// The result does not depend on the number of threads.
+LightGuide learnLightGuide(std::span<const LightNote> notes, const EnvironmentTable& environment);
 
 } // namespace stromboli

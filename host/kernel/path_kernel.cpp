@@ -95,8 +95,7 @@ std::vector<vulkan::Binding> kernelBindings(bool texelFetch, bool isStage) {
         if (i == BINDING_QUEUES && !isStage) continue;
         // The film and the work list are read and written row by row as well.
         const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS ||
-                          i == BINDING_PIXELS || i == BINDING_FILTER || i == BINDING_GUIDE ||
-                          i == BINDING_LIGHT_NOTES;
+                          i == BINDING_PIXELS || i == BINDING_FILTER || i == BINDING_GUIDE;
         bindings.push_back({i, rows && texelFetch   ? BufferUse::Texel
                                : i == BINDING_FRAME ? BufferUse::Uniform
                                                     : BufferUse::Storage});

@@ -3,6 +3,8 @@
 #include "host/kernel/feelers.hpp"
 #include "host/kernel/lamp_light.hpp"
 
+#include <utility>
+
 namespace stromboli {
 
 // --- Rays ----------------------------------------------------------------------------------------
@@ -119,19 +121,22 @@ std::optional<Place> placeSeen(const SceneRays& rays, const GpuScene& packed,
 } // namespace
 
 std::vector<Place> placesSeen(const SceneRays& rays, const GpuScene& packed, const Camera& camera,
-                              uint32_t side, Random& random) {
+                              uint32_t side, Random& random, int bounces) {
     std::vector<Place> places;
     for (const Feeler& f : lookAround(packed.bvh, camera, side)) {
         TraversalRay ray;
         ray.origin = f.origin, ray.direction = f.direction;
         if (const auto place = placeSeen(rays, packed, ray)) places.push_back(*place);
     }
-    const size_t seen = places.size();
-    for (size_t i = 0; i < seen; ++i) {
-        const Place& p = places[i];
-        const glm::dvec3 d(aboutNormal(p.normal, random));
-        if (const auto place = placeSeen(rays, packed, rays.leave(p.point, p.normal, d, p.hit)))
-            places.push_back(*place);
+    size_t first = 0;
+    for (int bounce = 0; bounce < bounces; ++bounce) {
+        const size_t end = places.size();
+        for (size_t i = std::exchange(first, end); i < end; ++i) {
+            const Place p = places[i];
+            const glm::dvec3 d(aboutNormal(p.normal, random));
+            if (const auto place = placeSeen(rays, packed, rays.leave(p.point, p.normal, d, p.hit)))
+                places.push_back(*place);
+        }
     }
     return places;
 }

@@ -68,8 +68,9 @@ struct Place {
     bool isLitFromBehind = false; ///< it scatters what falls on its other side, too
 };
 
-/// What the camera sees, by side x side rays, and as many places that are seen from there.
+/// What the camera sees, by side x side rays, and `bounces` times a place that is seen from each of
+/// the places before.
 std::vector<Place> placesSeen(const SceneRays& rays, const GpuScene& packed, const Camera& camera,
-                              uint32_t side, Random& random);
+                              uint32_t side, Random& random, int bounces = 1);
 
 } // namespace stromboli

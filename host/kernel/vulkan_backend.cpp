@@ -111,7 +111,6 @@ void VulkanBackend::setScene(const GpuScene& scene) {
     dispatcher_.reset(); // before the memory of the next is asked for
     film_.reset();
     filled_.clear();
-    learntFor_.reset();
     if (deviceScene_) filled_ = deviceScene_->releaseWhatIsAlsoIn(scene);
     deviceScene_.reset();
     scene_ = &scene;
@@ -120,7 +119,6 @@ void VulkanBackend::setScene(const GpuScene& scene) {
 void VulkanBackend::sceneHasChanged(std::span<const uint32_t> bindings) {
     dispatcher_.reset();
     film_.reset();
-    learntFor_.reset();
     if (deviceScene_) filled_ = deviceScene_->releaseAllBut(bindings);
     deviceScene_.reset();
 }
@@ -133,7 +131,6 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     film_.reset();
     checkMemory(device_.description(), *scene_, settings.area, estimator, tuning);
     if (kernelsFetchTexels_ != tuning.texelFetch) {
-        learntFor_.reset();
         kernels_.clear(); // where a picture's work list is too large for the device's texel buffers
         deviceScene_.reset();
     }
@@ -143,15 +140,10 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     estimator_ = estimator;
     frame_ = makeFrame(*scene_, camera, area_, estimator);
     const bool aims = aimsAtPortals(*scene_, estimator) && !scene_->portals.all.empty();
-    if (aims) estimator_.guidesLight = false;
     // The driver compiles on one thread, and the scene goes to the device meanwhile.
-    const bool mayLearn =
-        guidesLight(*scene_, estimator_) && (tuning_.guide || seesSkyInPart(*scene_, camera));
-    if (!mayLearn) estimator_.guidesLight = false;
-    const KernelFeatures first = mayLearn ? notingFeatures(*scene_, camera, estimator, tuning)
-                                          : kernelFeatures(*scene_, camera, estimator_, tuning);
-    std::future<StageKernels> compiled =
-        std::async(std::launch::async, [&] { return kernelsFor(first, tuning); });
+    std::future<StageKernels> compiled = std::async(std::launch::async, [&] {
+        return kernelsFor(kernelFeatures(*scene_, camera, estimator, tuning), tuning);
+    });
     if (!deviceScene_)
         deviceScene_ =
             std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
@@ -161,12 +153,9 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     litCells_ = aimsBounces(*scene_, estimator_)
                     ? uploaded("lit cells", litRows(*scene_->lit), tuning)
                     : nullptr;
-    StageKernels kernels = compiled.get();
-    if (mayLearn) {
-        learn(tuning);
-        if (!guide_) estimator_.guidesLight = false;
-        kernels = kernelsFor(kernelFeatures(*scene_, camera, estimator_, tuning), tuning);
-    }
+    guide_ = guidesLight(*scene_, estimator_) ? uploaded("light guide", scene_->guide->rows, tuning)
+                                              : nullptr;
+    const StageKernels kernels = compiled.get();
     kernel_ = kernels.front();
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
     dispatcher_ = makeDispatcher(film_->segments(), kernels, frame_, tuning);
@@ -175,14 +164,8 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
 std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSegment> film,
                                                           const StageKernels& kernels,
                                                           const gpu::Frame& frame,
-                                                          const DeviceTuning& tuning,
-                                                          const vulkan::Buffer* lightNotes) const {
-    const DispatchTarget target{device_,
-                                *deviceScene_,
-                                film,
-                                *filter_,
-                                whereSamplesGo(lightNotes != nullptr),
-                                lightNotes ? *lightNotes : *filter_};
+                                                          const DeviceTuning& tuning) const {
+    const DispatchTarget target{device_, *deviceScene_, film, *filter_, whereSamplesGo()};
     const DispatchSettings settings{frame, tuning, tuning_.targetSeconds, tuning_.fixedIterations};
     if (tuning.scheduler == PathScheduler::Wavefront)
         return std::make_unique<WavefrontDispatcher>(target, kernels, settings);
@@ -192,10 +175,10 @@ std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSe
 /// The buffer by which samples choose where they go: light samples to the sky by portals or the
 /// guide, bounces by lit cells, of which there are none where there is a sky. Kernels without any
 /// read nothing of it, and get one that is there in any case.
-const vulkan::Buffer& VulkanBackend::whereSamplesGo(bool areNoted) const {
+const vulkan::Buffer& VulkanBackend::whereSamplesGo() const {
     if (portals_) return *portals_;
     if (litCells_) return *litCells_;
-    return estimator_.guidesLight && !areNoted ? *guide_ : *filter_;
+    return guide_ ? *guide_ : *filter_;
 }
 
 std::unique_ptr<vulkan::Buffer> VulkanBackend::uploaded(std::string_view name,

@@ -32,11 +32,6 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
                        const GpuScene& scene, const PictureArea& area, uint32_t strands = 1);
 
-/// Whether there is something to learn of which light samples to the sky arrive: not where so much
-/// of what the camera sees lies open to it that they arrive in any case, nor where the sky is seen
-/// through glass alone and none does.
-bool seesSkyInPart(const GpuScene& scene, const Camera& camera);
-
 // --- The backend ---------------------------------------------------------------------------------
 
 /// Takes samples with the Vulkan path kernel: a scene on the device, and one picture of it after
@@ -92,16 +87,11 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
                                 std::optional<uint32_t> stage);
     std::unique_ptr<Dispatcher> makeDispatcher(std::span<const FilmSegment> film,
                                                const StageKernels& kernels, const gpu::Frame& frame,
-                                               const DeviceTuning& tuning,
-                                               const vulkan::Buffer* lightNotes = nullptr) const;
+                                               const DeviceTuning& tuning) const;
     std::vector<SampleValue> someAlone(uint32_t pixel, uint32_t first, uint32_t count) const;
-    const vulkan::Buffer& whereSamplesGo(bool areNoted) const;
+    const vulkan::Buffer& whereSamplesGo() const;
     std::unique_ptr<vulkan::Buffer> uploaded(std::string_view name, const std::vector<Row>& rows,
                                              const DeviceTuning& tuning) const;
-    // backend_learning.cpp
-    void learn(const DeviceTuning& tuning);
-    std::vector<gpu::LightNote> noteLightSamples(const PictureArea& area, const gpu::Frame& frame,
-                                                 const DeviceTuning& tuning);
 
     const vulkan::Device& device_;
     const GpuScene* scene_;
@@ -113,19 +103,12 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
     bool kernelsFetchTexels_ = false; ///< all of them
     // What belongs to one picture:
     Camera camera_;
-    Estimator estimator_; ///< guides no light where that does not pay
+    Estimator estimator_;
     PictureArea area_;
     gpu::Frame frame_{};
     const PathKernel* kernel_ = nullptr; ///< one of kernels_
     std::unique_ptr<DeviceFilm> film_;
-    /// The noted picture that the guide was learnt from.
-    struct LearntFor {
-        gpu::Frame frame;
-        Estimator estimator;
-        bool parallel; ///< camera rays
-    };
-    std::optional<LearntFor> learntFor_;
-    std::unique_ptr<vulkan::Buffer> guide_;    ///< LightGuide::rows; none: it does not pay
+    std::unique_ptr<vulkan::Buffer> guide_;    ///< LightGuide::rows; none: it is not read
     std::unique_ptr<vulkan::Buffer> litCells_; ///< litRows(); none: bounces do not aim
     std::unique_ptr<vulkan::Buffer> portals_;  ///< PortalRows; none: light samples aim at none
     std::unique_ptr<vulkan::Buffer> filter_;   ///< the table of its pixel filter

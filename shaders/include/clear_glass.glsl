@@ -18,7 +18,6 @@ struct ThroughGlass {
     uint light;        ///< as LightEntry::light
     vec3 share;        ///< what it brings of each radiance that it finds; 0: of what no ray finds
     bool isUnderWay;   ///< it is on its way through glass, and the path waits at its surface:
-    bool hasArrived;   ///< it has found its light
     SurfacePoint surface;
     Material material;
     vec3 throughput;

@@ -47,7 +47,6 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
     path.directValue = f.value * light.radiance;
     if (LIGHT_THROUGH_GLASS) path.glass.share *= f.value;
     if (!(dot(path.directValue, vec3(1.0)) > 0.0)) {
-        if (!hemisphere) noteLightSample(given.frame, path, light, vec3(0.0));
         if (RECORDS) recordLightSample(path, light, 1.0, false);
         return;
     }
@@ -58,7 +57,6 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
         path.directValue *= weight;
         if (LIGHT_THROUGH_GLASS) path.glass.share *= weight;
     }
-    if (!hemisphere) noteLightSample(given.frame, path, light, path.directValue);
     if (RECORDS) recordLightSample(path, light, weight, true);
     const bool transmitted = isBehind(path.surface, light.direction);
     const vec3 origin = leaveThroughMedia(path.surface, light.direction, transmitted);

@@ -4,15 +4,12 @@
 #ifdef FETCH_TEXEL
 layout(set = 0, binding = BINDING_WORK_ITEMS, rgba32ui) uniform readonly uimageBuffer workRows;
 layout(set = 0, binding = BINDING_PIXELS, rgba32ui) uniform uimageBuffer pixelRows;
-layout(set = 0, binding = BINDING_LIGHT_NOTES, rgba32ui) uniform writeonly uimageBuffer lightNotes;
 #define STORE_ROW(name, i, value) imageStore(name, int(i), value)
 #else
 layout(set = 0, binding = BINDING_WORK_ITEMS, std430) readonly buffer WorkBuffer { uvec4 rows[]; }
 workRows;
 layout(set = 0, binding = BINDING_PIXELS, std430) buffer PixelBuffer { uvec4 rows[]; }
 pixelRows;
-layout(set = 0, binding = BINDING_LIGHT_NOTES, std430) writeonly buffer LightNoteBuffer { uvec4 rows[]; }
-lightNotes;
 #define STORE_ROW(name, i, value) name.rows[i] = value
 #endif
 

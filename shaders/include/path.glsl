@@ -6,7 +6,6 @@
 #include "include/path_state.glsl"
 #include "include/media.glsl"
 #include "include/seeing.glsl"
-#include "include/guide_notes.glsl"
 #include "include/roulette.glsl"
 #include "include/recording.glsl"
 #include "include/through_glass.glsl"
@@ -37,7 +36,7 @@ MaterialPoint askedPoint(PathState path) {
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
 }
 
-void finishShadowRay(const Frame frame, inout PathState path) {
+void finishShadowRay(inout PathState path) {
     if (emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE)
         path.directValue *= emissionFactorOf(path.found);
     path.phase = PHASE_DIRECT;
@@ -49,8 +48,6 @@ void finishShadowRay(const Frame frame, inout PathState path) {
         if (RECORDS) recordArrivedLight(path, light);
     } else if (mayBeGlass && dot(path.glass.share, vec3(1.0)) > 0.0) {
         enterGlass(path);
-    } else {
-        noteShadow(frame, path, path.ray.direction);
     }
 }
 
@@ -314,10 +311,10 @@ void finishSample(const Frame frame, inout PathState path) {
 bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
-    if (isToLight(path.phase)) finishShadowRay(given.frame, path);
+    if (isToLight(path.phase)) finishShadowRay(path);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(given.frame, path);
     if (path.phase == PHASE_PATH) arrive(given, path);
-    comeBackFromGlass(given.frame, path);
+    comeBackFromGlass(path);
     return true;
 }
 

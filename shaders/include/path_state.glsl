@@ -77,7 +77,6 @@ struct PathState {
     /// Drawn with the path ray for where it ends. x, y: for the first light sample there; z: for roulette.
     vec3 arrivalNumbers;
     vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
-    bool isNoted; ///< the light sample under way (guide_notes.glsl)
     MaterialPoint sampledEmitter; ///< where the light sample under way has gone (sampleLight())
 
     SplitPoint splitPoint;

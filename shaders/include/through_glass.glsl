@@ -5,7 +5,6 @@
 void enterGlass(inout PathState path) {
     const bool isBehindSurface = isBehind(path.surface, path.glass.direction);
     path.glass.isUnderWay = true;
-    path.glass.hasArrived = false;
     path.glass.surface = path.surface;
     path.glass.material = path.material;
     path.glass.throughput = path.throughput;
@@ -24,12 +23,11 @@ void enterGlass(inout PathState path) {
 
 /// What the light sample has found: its light, share being 1, or anything else.
 void arriveThroughGlass(inout PathState path, vec3 light, float share) {
-    path.glass.hasArrived = path.glass.hasArrived || share > 0.0;
     if (RECORDS && share > 0.0) recordArrivedLight(path, light);
 }
 
 /// Goes back to the surface that the light sample was taken at, once its way has ended.
-void comeBackFromGlass(const Frame frame, inout PathState path) {
+void comeBackFromGlass(inout PathState path) {
     if (isThroughGlass(path) && path.phase == PHASE_ENDED) {
         path.glass.isUnderWay = false;
         path.surface = path.glass.surface;
@@ -38,7 +36,6 @@ void comeBackFromGlass(const Frame frame, inout PathState path) {
         path.bounce = path.glass.bounce;
         path.filling = path.glass.filling;
         path.phase = PHASE_DIRECT;
-        if (!path.glass.hasArrived) noteShadow(frame, path, path.glass.direction);
     }
 }
 

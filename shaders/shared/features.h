@@ -24,7 +24,7 @@
       "triangles", flag, "the intersection of rays and triangles") \
     F(4, bool, HAS_SPHERES, true, scene.hasSpheres, 1, \
       "spheres", flag, "the intersection of rays and spheres") \
-    F(67, bool, SPHERES_WAIT, false, !tuning.stepsBranch && spheresWait(scene), own, \
+    F(58, bool, SPHERES_WAIT, false, !tuning.stepsBranch && spheresWait(scene), own, \
       "spheres that wait", flag, "spheres that are tested after some steps, where most steps meet none") \
     F(45, bool, HAS_PLACEMENTS, false, scene.hasPlacements, own, \
       "instances", flag, "prototypes that are placed in the world: rays go into their space and back") \
@@ -161,8 +161,6 @@
       "record of a path", flag, "what happens to the path of one sample, written event by event (render --pixel)") \
     F(57, bool, GUIDES_LIGHT, false, guidesLight(scene, settings), own, \
       "guided light samples", flag, "light samples that go where the environment is seen from") \
-    F(58, bool, NOTES_LIGHT, false, 0, own, \
-      "notes of light samples", flag, "which light samples arrive, written down for guiding to learn from") \
     F(59, bool, CLAMPS_INDIRECT, false, shades && settings.indirectLimit > 0, own, \
       "limited light", flag, "light that is limited where it was scattered twice or more") \
     F(60, float, INDIRECT_LIMIT, 1.0, f[SPEC_CLAMPS_INDIRECT] ? settings.indirectLimit : 0, own, \
@@ -178,7 +176,7 @@
     F(66, bool, LIGHT_THROUGH_GLASS, false, lightsThroughGlass(scene, settings), own, \
       "light samples through glass", flag, "rays of light samples that go on, bent, where they meet clear glass")
 
-#define SPEC_COUNT 68
+#define SPEC_COUNT 67
 
 #ifdef __cplusplus
 namespace stromboli {

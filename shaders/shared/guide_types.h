@@ -1,5 +1,4 @@
-// Guided light samples (docs/theory/estimator.md, "Learned light samples"): what the kernel writes down for training, and
-// what it reads of what was learnt.
+// Guided light samples (docs/theory/estimator.md, "Learned light samples"): what the kernel reads of what was learnt.
 #ifndef STROMBOLI_SHARED_GUIDE_TYPES_H
 #define STROMBOLI_SHARED_GUIDE_TYPES_H
 
@@ -8,7 +7,6 @@
 
 SHARED_BEGIN
 
-// --- What is learnt ------------------------------------------------------------------------------
 // Points where light samples are taken, by position and normal, are divided into cells by a tree of which each node has
 // four children. The rows of the guide: the nodes, level by level from the root, then for each cell a table of
 // GUIDE_TABLE_ROWS: TileColumns (light_types.h), then TileRatios.
@@ -33,23 +31,6 @@ struct TileRatios {
 };
 SHARED_ROWS(TileRatios, 1);
 SHARED_CONST uint GUIDE_TABLE_ROWS = ENVIRONMENT_COLUMN_ROWS + ENVIRONMENT_TILES;
-
-// --- What is noted -------------------------------------------------------------------------------
-
-/// Points of a path whose light samples are noted.
-SHARED_CONST uint GUIDE_VERTICES = 4u;
-
-/// A light sample to the environment. All 0: there was none.
-struct LightNote {
-    vec3 position; ///< litPoint() of the surface
-    uint unused0;
-    vec3 normal; ///< for shading, on the side of the light
-    uint unused1;
-    vec3 direction; ///< unit, to the light
-    float value;    ///< luminance that it brings to the sample; 0: it is shaded, or leaves behind the surface
-};
-SHARED_CONST uint LIGHT_NOTE_ROWS = 3u;
-SHARED_ROWS(LightNote, LIGHT_NOTE_ROWS);
 
 SHARED_END
 

@@ -23,9 +23,8 @@ SHARED_BEGIN
 #define BINDING_STATUS 11
 #define BINDING_FILTER 12 // the table of a pixel filter; read row by row as well
 #define BINDING_GUIDE 13    // by what samples choose where they go: the guide (guide_types.h), portals or lit cells (light_types.h)
-#define BINDING_LIGHT_NOTES 14 // what it learns from
-#define BINDING_QUEUES 15   // of the wavefront scheduler alone
-#define BINDING_COUNT 16
+#define BINDING_QUEUES 14   // of the wavefront scheduler alone
+#define BINDING_COUNT 15
 #define SCENE_BINDING_COUNT 7 // bindings 0 to 6 hold the scene and are read row by row
 
 /// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/theory/kernel.md,

@@ -102,7 +102,6 @@
     F(bool, path.glass.isFromLit, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(uint, path.glass.panes, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(bool, path.glass.isUnderWay, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
-    F(bool, path.glass.hasArrived, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
     F(uint, path.glass.light, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_LIGHT) \
     F(vec3, path.glass.share, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_LIGHT) \
     SURFACE_FIELDS(F, path.glass.surface, LIGHT_THROUGH_GLASS, BY_FOLLOW, BY_FOLLOW) \
@@ -115,7 +114,6 @@
     F(float, path.filterWeight, samplesHaveWeights(), BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.directIndex, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
     F(vec3, path.directValue, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
-    F(bool, path.isNoted, NOTES_LIGHT, BY_ALL, BY_LIGHT) \
     F(uint, path.sampledEmitter.material, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_ALL, BY_LIGHT) \

@@ -33,10 +33,9 @@ struct Frame {
     float lensRadius;
     float focusDistance; ///< of the plane that is sharp, along the view axis
     uint cameraMedium; ///< where camera rays begin: the first row of a medium, or NO_MEDIUM
-    uint notedSamples; ///< of each pixel, where light samples are noted (guide_notes.glsl)
     float portalShare; ///< of light samples to the sky that aim at portals (lights/portals.glsl)
     uint litCells; ///< that bounces aim at, with AIMS_BOUNCES (aimed_bounces.glsl)
-    uint unused0, unused1;
+    uint unused0, unused1, unused2;
 };
 SHARED_ROWS(Frame, 10);
 SHARED_OFFSET(Frame, nearDistance, 64);

@@ -1,9 +1,11 @@
 // Guided light samples in pictures: without bias for any guide, the same bytes however the work is
 // cut, less noise where light comes through a window, and none of it where a scene lies open.
 #include "host/bvh/wide_layout.hpp"
+#include "host/core/color.hpp"
 #include "host/core/random.hpp"
-#include "host/kernel/light_guide.hpp"
+#include "host/kernel/light_notes.hpp"
 #include "host/kernel/light_table.hpp"
+#include "host/kernel/sky_picture.hpp"
 #include "host/render/sampling_session.hpp"
 #include "tests/kernel/window_room.hpp"
 #include "tests/render/device_render.hpp"
@@ -11,7 +13,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
 
 namespace stromboli {
 namespace {
@@ -19,7 +25,7 @@ namespace {
 using namespace test;
 
 /// A guide that knows nothing: cuts anywhere, and tiles that differ hundredfold.
-std::shared_ptr<const LightGuide> garbage(const EnvironmentTable& environment) {
+LightGuide garbage(const EnvironmentTable& environment) {
     Random random(17);
     std::vector<gpu::GuideNode> nodes(gpu::GUIDE_NODES);
     for (gpu::GuideNode& n : nodes)
@@ -33,10 +39,7 @@ std::shared_ptr<const LightGuide> garbage(const EnvironmentTable& environment) {
         for (double& p : cell)
             p /= sum;
     }
-    auto guide = std::make_shared<LightGuide>();
-    guide->rows = guideRows(nodes, probabilities, environment);
-    guide->gain = 100;
-    return guide;
+    return {guideRows(nodes, probabilities, environment), 100};
 }
 
 class GuidedLight : public DeviceTest {
@@ -48,9 +51,12 @@ class GuidedLight : public DeviceTest {
         settings_.estimator.guidesLight = true;
     }
 
-    Film pictureOf(const Scene& loaded, const KernelTuning& tuning = {}) {
-        const GpuScene scene =
+    /// given: the guide, in place of what is learnt.
+    Film pictureOf(const Scene& loaded, const KernelTuning& tuning = {},
+                   const std::optional<LightGuide>& given = {}) {
+        GpuScene scene =
             packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
+        scene.guide = given ? given : guideThatPays(loaded, scene, kRoomView, false);
         VulkanBackend backend(testDevice(), scene, kRoomView, settings_, tuning);
         isGuided_ = backend.features()[SPEC_GUIDES_LIGHT] != 0;
         return render(backend, settings_);
@@ -76,8 +82,7 @@ TEST_F(GuidedLight, AnyGuideHasNoBias) {
         settings_.estimator.seed = 0;
         const Film plain = unguided(scene);
         settings_.estimator.seed = 1;
-        const Film guided =
-            pictureOf(scene, {.guide = garbage(packEnvironment(*scene.environment))});
+        const Film guided = pictureOf(scene, {}, garbage(packEnvironment(*scene.environment)));
         ASSERT_TRUE(isGuided_);
         expectAgreement(plain, guided, what);
     };
@@ -97,6 +102,63 @@ TEST_F(GuidedLight, AnyGuideHasNoBias) {
     expectNoBias(roomWithMore(4), "rough glass, a tree of lights");
 }
 
+/// Notes say that light arrives where their direction leaves by the window, and nowhere else.
+TEST(LightNotes, AreOfWhatComesThroughTheWindow) {
+    constexpr float kWindow = 0.7f;
+    const auto notesOf = [](const Scene& scene) {
+        const GpuScene packed = packScene(scene, buildWideBvh(scene));
+        return noteLightSamples(scene, packed, kRoomView, false);
+    };
+    const std::vector<LightNote> notes = notesOf(roomWithWindow(kWindow));
+    ASSERT_GT(notes.size(), 20000u);
+    size_t arrived = 0;
+    for (const LightNote& n : notes) {
+        const glm::vec3 at = n.position + (-1 - n.position.x) / n.direction.x * n.direction;
+        const float beside = std::max(std::abs(at.y), std::abs(at.z)) - kWindow / 2;
+        if (std::abs(beside) < 1e-3f) continue; // its edge
+        const bool leaves = n.direction.x < 0 && n.position.x > -0.999f && beside < 0;
+        const float cosine = glm::dot(n.direction, n.normal);
+        EXPECT_NEAR(n.value, leaves ? std::max(cosine, 0.0f) : 0.0f, 1e-5f);
+        arrived += n.value > 0;
+    }
+    EXPECT_GT(arrived, 200u);
+    for (const LightNote& n : notesOf(roomWithWindow(0)))
+        EXPECT_EQ(n.value, 0) << "a closed room";
+}
+
+/// As often in each texel as its weight says: chi-squared over the texels that 20 directions or
+/// more are expected in, beyond the bound once in 10,000.
+TEST(SkyPicture, HasTheDensityOfTheSkysWeight) {
+    constexpr int kCount = 100000;
+    Environment sky = roughSky();
+    sky.rotation = 0.7f;
+    const EnvironmentTable table = packEnvironment(sky);
+    ASSERT_GT(table.light.tileShift, 0u) << "tiles of several texels";
+    gpu::EnvironmentLight texels = table.light; // each a tile
+    texels.tileShift = 0, texels.tilesAcross = sky.width;
+    const SkyPicture picture(table);
+    Random random(3);
+    std::vector<int> met(sky.radiance.size());
+    for (int i = 0; i < kCount; ++i)
+        ++met[tileOf(texels, glm::vec3(picture.sample(random)))];
+    const auto weight = [&](size_t t) {
+        const double polar = std::numbers::pi * (double(t / sky.width) + 0.5) / sky.height;
+        return luminance(glm::dvec3(sky.radiance[t])) * std::sin(polar);
+    };
+    double sum = 0, chiSquare = 0;
+    for (size_t t = 0; t < met.size(); ++t)
+        sum += weight(t);
+    int degrees = 0;
+    for (size_t t = 0; t < met.size(); ++t) {
+        const double expected = kCount * weight(t) / sum;
+        if (expected < 20) continue;
+        chiSquare += std::pow(met[t] - expected, 2) / expected;
+        ++degrees;
+    }
+    ASSERT_GT(degrees, 500);
+    EXPECT_LT(chiSquare, degrees + 3.8 * std::sqrt(2.0 * degrees));
+}
+
 TEST_F(GuidedLight, LearnsWhereAWindowIs) {
     const Scene scene = roomWithWindow(0.7f);
     const Film plain = unguided(scene);
@@ -111,22 +173,6 @@ TEST_F(GuidedLight, LearnsWhereAWindowIs) {
     EXPECT_LT(after, before / 1.5);
 }
 
-/// A picture does not depend on the one before it, nor on the crop's size.
-TEST_F(GuidedLight, IsLearntAnewForOtherSettings) {
-    const Scene loaded = roomWithWindow(0.7f);
-    settings_.budget.mostSamplesPerPixel = 2;
-    const GpuScene scene =
-        packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
-    RenderSettings other = settings_;
-    other.estimator.sampler = Sampler::Independent;
-    other.area.crop = {3, 4, 1, 1};
-    VulkanBackend backend(testDevice(), scene, kRoomView, settings_);
-    backend.setPicture(kRoomView, other);
-    const Film after = render(backend, other);
-    VulkanBackend fresh(testDevice(), scene, kRoomView, other);
-    EXPECT_TRUE(sameStatistics(render(fresh, other), after));
-}
-
 TEST_F(GuidedLight, IsLeftWhereASceneLiesOpen) {
     scenes::SceneMaker b;
     b.quad({-5, -1, -5}, {0, 0, 10}, {10, 0, 0}, b.add(scenes::diffuse(0.6f)));
@@ -137,7 +183,6 @@ TEST_F(GuidedLight, IsLeftWhereASceneLiesOpen) {
     EXPECT_TRUE(sameStatistics(plain, asked));
 }
 
-/// Learning would take a second kernel and as many paths as four samples of each pixel.
 TEST(SeesSkyInPart, WhereRaysLeaveThroughAWindowThatHasNoPane) {
     const auto sees = [](const Scene& scene) {
         return seesSkyInPart(packScene(scene, buildWideBvh(scene)), kRoomView);

@@ -1,5 +1,6 @@
 // Light samples that aim at portals, in pictures: a known answer, no bias for any portals, the same
 // bytes however the work is cut, and less noise where light comes through a window.
+#include "host/kernel/light_notes.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/render/sampling_session.hpp"
 #include "scene/read_scene.hpp"
@@ -238,12 +239,13 @@ TEST_F(PortalLight, HasTheSameBytesHoweverTheWorkIsCut) {
         [&](const KernelTuning& tuning) { return pictureOf(scene, portals, tuning); });
 }
 
-/// Where portals are aimed at, nothing is learnt; and a picture does not depend on the one before.
+/// Where portals are aimed at, no guide is read; and a picture does not depend on the one before.
 TEST_F(PortalLight, ComesBeforeGuiding) {
     const Scene loaded = roomWithWindow(0.7f);
     settings_.budget.mostSamplesPerPixel = 2;
     settings_.estimator.guidesLight = true;
     GpuScene scene = packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
+    scene.guide = guideThatPays(loaded, scene, kRoomView, false);
     VulkanBackend backend(testDevice(), scene, kRoomView, settings_);
     EXPECT_NE(backend.features()[SPEC_GUIDES_LIGHT], 0u) << "there is no portal";
     scene.portals = anyPortals();

@@ -69,7 +69,7 @@ void gatherDirectLight(const Given given, inout PathState path, inout uint loopP
         const bool isShadowRay = path.phase == PHASE_SHADOW;
         if (isShadowRay || path.phase == PHASE_HEMISPHERE) {
             traceToTheEnd(given, path, loopPasses);
-            if (isShadowRay) finishShadowRay(given.frame, path);
+            if (isShadowRay) finishShadowRay(path);
             else finishHemisphereRay(given.frame, path);
         }
         ++loopPasses;

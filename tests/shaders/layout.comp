@@ -101,8 +101,8 @@ void putFrame() {
     put(frame.lightCount), put(frame.areaLights), put(frame.hemisphereSamples);
     put(frame.lightSamples), put(frame.branches), put(frame.ambientLight);
     put(frame.lightsInGroup0), put(frame.lightsInGroup1), put(frame.lightsInGroup2);
-    put(frame.lensRadius), put(frame.focusDistance), put(frame.cameraMedium), put(frame.notedSamples);
-    put(frame.portalShare), put(frame.litCells), put(frame.unused0), put(frame.unused1);
+    put(frame.lensRadius), put(frame.focusDistance), put(frame.cameraMedium);
+    put(frame.portalShare), put(frame.litCells), put(frame.unused0), put(frame.unused1), put(frame.unused2);
 }
 
 void putWork() {

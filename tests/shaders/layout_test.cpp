@@ -191,7 +191,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
             f.minBounce, f.maxBounces, f.terminationProbability, f.lightCount, f.areaLights,
             f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight, f.lightsInGroup0,
             f.lightsInGroup1, f.lightsInGroup2, f.lensRadius, f.focusDistance, f.cameraMedium,
-            f.notedSamples, f.portalShare, f.litCells, f.unused0, f.unused1);
+            f.portalShare, f.litCells, f.unused0, f.unused1, f.unused2);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {

@@ -17,8 +17,7 @@ std::vector<vulkan::Binding> allBindings(bool texelFetch) {
     std::vector<vulkan::Binding> bindings;
     for (uint32_t i = 0; i < kBindings; ++i) {
         const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS ||
-                          i == BINDING_PIXELS || i == BINDING_FILTER || i == BINDING_GUIDE ||
-                          i == BINDING_LIGHT_NOTES;
+                          i == BINDING_PIXELS || i == BINDING_FILTER || i == BINDING_GUIDE;
         bindings.push_back({i, rows && texelFetch   ? BufferUse::Texel
                                : i == BINDING_FRAME ? BufferUse::Uniform
                                                     : BufferUse::Storage});
