@@ -63,8 +63,8 @@ void useDriverThreads(uint32_t threads) {
 }
 
 void useMemoryInLargePieces() {
-#ifdef __GLIBC__
-    constexpr size_t kInHugePages = size_t(512) << 20; // as much as starts of most scenes ask for
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) // the sanitizer has its own
+    constexpr size_t kInHugePages = size_t(512) << 20;   // as much as starts of most scenes ask for
     constexpr int kKept = 1 << 30; // more than that, or it would go back at once
     ::mallopt(M_TRIM_THRESHOLD, kKept);
     ::mallopt(M_MMAP_THRESHOLD, kKept);
