@@ -24,7 +24,7 @@ struct Try {
     Place place;
     uint32_t tile;
     double value; ///< what it brought
-    bool isOfOdd;
+    bool isOfOdd; ///< LightNote::isOfOdd
 };
 
 /// Values above this quantile of those that are not 0 are taken for it, so that no cell is learnt

@@ -4,6 +4,7 @@
 #include "host/kernel/glass_before_lights.hpp"
 #include "host/kernel/seen_places.hpp"
 #include "host/kernel/sky_picture.hpp"
+#include "shaders/shared/medium_types.h"
 
 #include <tbb/parallel_for.h>
 
@@ -64,7 +65,8 @@ std::optional<LightGuide> guideThatPays(const Scene& scene, const GpuScene& pack
     /// More guided samples face their surfaces and need a ray, which takes a fifth of the picture's
     /// time, and they are not all of its noise.
     constexpr double kGainThatPays = 1.2;
-    if (!seesSkyInPart(packed, camera)) return std::nullopt;
+    // Samples that media take are not noted.
+    if ((packed.media & gpu::MEDIA_SCATTER) || !seesSkyInPart(packed, camera)) return std::nullopt;
     LightGuide guide = learnLightGuide(noteLightSamples(scene, packed, camera, goThroughGlass),
                                        *packed.lights.environment);
     if (guide.gain < kGainThatPays) return std::nullopt;

@@ -20,7 +20,8 @@ bool seesSkyInPart(const GpuScene& scene, const Camera& camera);
 std::vector<LightNote> noteLightSamples(const Scene& scene, const GpuScene& packed,
                                         const Camera& camera, bool goThroughGlass);
 
-/// What is learnt from these; none: it would not pay.
+/// What is learnt from these; none: it would not pay, or media scatter light, whose samples are not
+/// noted.
 std::optional<LightGuide> guideThatPays(const Scene& scene, const GpuScene& packed,
                                         const Camera& camera, bool goThroughGlass);
 

@@ -173,6 +173,24 @@ TEST_F(GuidedLight, LearnsWhereAWindowIs) {
     EXPECT_LT(after, before / 1.5);
 }
 
+/// A picture does not depend on the one before it, guided or not.
+TEST_F(GuidedLight, DoesNotDependOnThePictureBefore) {
+    const Scene loaded = roomWithWindow(0.7f);
+    settings_.budget.mostSamplesPerPixel = 2;
+    GpuScene scene = packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
+    scene.guide = guideThatPays(loaded, scene, kRoomView, false);
+    RenderSettings unguided = settings_;
+    unguided.estimator.guidesLight = false;
+    VulkanBackend backend(testDevice(), scene, kRoomView, settings_);
+    for (const RenderSettings& other : {unguided, settings_}) {
+        backend.setPicture(kRoomView, other);
+        const Film after = render(backend, other);
+        VulkanBackend fresh(testDevice(), scene, kRoomView, other);
+        EXPECT_EQ(fresh.features()[SPEC_GUIDES_LIGHT] != 0, other.estimator.guidesLight);
+        EXPECT_TRUE(sameStatistics(render(fresh, other), after));
+    }
+}
+
 TEST_F(GuidedLight, IsLeftWhereASceneLiesOpen) {
     scenes::SceneMaker b;
     b.quad({-5, -1, -5}, {0, 0, 10}, {10, 0, 0}, b.add(scenes::diffuse(0.6f)));
