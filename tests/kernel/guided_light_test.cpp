@@ -7,6 +7,7 @@
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/sky_picture.hpp"
 #include "host/render/sampling_session.hpp"
+#include "shaders/shared/medium_types.h"
 #include "tests/kernel/window_room.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -124,6 +125,14 @@ TEST(LightNotes, AreOfWhatComesThroughTheWindow) {
     EXPECT_GT(arrived, 200u);
     for (const LightNote& n : notesOf(roomWithWindow(0)))
         EXPECT_EQ(n.value, 0) << "a closed room";
+}
+
+TEST(LightNotes, AreNotAskedForWhereMediaScatter) {
+    const Scene scene = roomWithWindow(0.7f);
+    GpuScene packed = packScene(scene, buildWideBvh(scene));
+    EXPECT_TRUE(guideThatPays(scene, packed, kRoomView, false));
+    packed.media |= gpu::MEDIA_SCATTER;
+    EXPECT_FALSE(guideThatPays(scene, packed, kRoomView, false));
 }
 
 /// As often in each texel as its weight says: chi-squared over the texels that 20 directions or
