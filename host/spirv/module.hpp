@@ -104,6 +104,17 @@ bool fold(Module& module);
 /// of nothing and boundaries of blocks that nobody else enters. Returns whether anything changed.
 bool simplifyControlFlow(Module& module);
 
+/// Makes nested selections of the switches of a single case that early returns become, which
+/// drivers would make loops of. Returns whether there were any.
+bool dissolveSwitches(Module& module);
+
+/// Unrolls short loops that go by a constant number of times. Returns whether there were any.
+bool unrollLoops(Module& module);
+
+/// Puts what was stored in the place of loads of a function's variables, where that is the same on
+/// every way to them. Returns whether there were any.
+bool forwardValues(Module& module);
+
 /// Drops what nobody reads: values, stores to variables that are never loaded, and these variables.
 void dropDeadCode(Module& module);
 

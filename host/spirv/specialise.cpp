@@ -59,6 +59,8 @@ std::optional<std::vector<uint32_t>> specialise(std::span<const uint32_t> code,
     do
         settle(*module);
     while (splitStructures(*module));
+    while (dissolveSwitches(*module) || unrollLoops(*module) || forwardValues(*module))
+        settle(*module);
     return writeModule(*module);
 }
 

@@ -147,14 +147,6 @@ std::string sourceWithout(const Words& values) {
     return source;
 }
 
-Words readWords(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    Words words(bytes.size() / sizeof(uint32_t));
-    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
-    return words;
-}
-
 /// As the build compiles shaders.
 Words compiled(const std::string& source) {
     const TemporaryFolder folder;
@@ -171,17 +163,10 @@ Words compiled(const std::string& source) {
 /// Without local variables, as drivers read a module: where a feature is switched off before the
 /// build's passes, these dissolve some more of them than where the finished module lacks it.
 Words dissolved(const Words& module) {
-    const TemporaryFolder folder;
-    const std::string spv = (folder / "a.spv").string();
-    std::ofstream(spv, std::ios::binary)
-        .write(reinterpret_cast<const char*>(module.data()),
-               std::streamsize(module.size() * sizeof(uint32_t)));
-    const ShellRun run = shell(fmt::format(
-        "{} --target-env=vulkan1.1 --ssa-rewrite --eliminate-dead-code-aggressive "
-        "--simplify-instructions --eliminate-dead-code-aggressive --merge-blocks {} -o {}",
-        STROMBOLI_OPT, spv, spv));
-    EXPECT_EQ(run.exitCode, 0) << run.output;
-    return specialised(readWords(spv), {});
+    return specialised(
+        optimised(module, "--ssa-rewrite --eliminate-dead-code-aggressive --simplify-instructions "
+                          "--eliminate-dead-code-aggressive --merge-blocks"),
+        {});
 }
 
 /// What a scene lacks costs it nothing: its kernel is the same as if the shaders had never had it.

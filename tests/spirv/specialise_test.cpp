@@ -11,6 +11,7 @@
 #include "embedded/trace_rays_texel.h"
 #include "embedded/wavefront_storage.h"
 #include "embedded/wavefront_texel.h"
+#include "embedded/ways_shader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -135,6 +136,38 @@ TEST(Specialise, ConstantsThatAreNotGivenKeepTheirDefaults) {
     Words other = defaults;
     other[1] = 4;
     EXPECT_NE(spirv::specialise(decided_shader, {}), spirv::specialise(decided_shader, other));
+}
+
+constexpr uint32_t kSwitch = 251, kLoopMerge = 246, kLoad = 61;
+
+/// Mesa makes a loop of each switch that is left from within, and unrolls one nest of loops in each
+/// round of all its passes.
+TEST(Specialise, EarlyReturnsAreNoSwitchesAndCountedLoopsNoLoops) {
+    const Words before(std::begin(ways_shader), std::end(ways_shader));
+    EXPECT_EQ(countOf(before, kSwitch), 5u);
+    EXPECT_EQ(countOf(before, kLoopMerge), 9u);
+    for (const uint32_t returnsEarly : {0u, 1u}) {
+        const auto made = spirv::specialise(ways_shader, Words{1, 3, returnsEarly});
+        ASSERT_TRUE(made);
+        EXPECT_EQ(complaint(*made), "");
+        // Left is a return out of a selection in a selection of which the other ways go on.
+        EXPECT_EQ(countOf(*made, kSwitch), returnsEarly);
+        // Those with a return, a break and a `continue`, and one of a number of times that is not
+        // known.
+        EXPECT_EQ(countOf(*made, kLoopMerge), 3u + returnsEarly);
+    }
+}
+
+/// By spirv-opt, which knows nothing of this program's passes, hardly a load is left whose value is
+/// known.
+TEST(Specialise, StoredValuesAreNotLoadedAgain) {
+    for (const char* scene : {"cornell_boxes", "still_life"}) {
+        const auto made = spirv::specialise(pathtrace_storage, featuresOf(scene));
+        ASSERT_TRUE(made);
+        const Words less =
+            optimised(*made, "--eliminate-local-single-block --eliminate-local-single-store");
+        EXPECT_GT(countOf(less, kLoad), countOf(*made, kLoad) * 95 / 100) << "of " << scene;
+    }
 }
 
 /// The driver gets such modules as they are.
