@@ -29,8 +29,8 @@ namespace {
 using namespace test;
 using Kind = FeatureValue::Kind;
 
-/// In two kernels that differ as far as can be: what has no effect beside the one has some beside
-/// the other.
+/// In two kernels that differ as far as can be, and one of a rich scene: what has no effect beside
+/// one has some beside another.
 const std::vector<Words>& bases() {
     static const std::vector<Words> all = [] {
         Words everything = featuresOf("cornell_boxes", true);
@@ -46,7 +46,8 @@ const std::vector<Words>& bases() {
         everything[SPEC_LIGHT_CHOICE] = gpu::LIGHT_CHOICE_TREE;
         everything[SPEC_LOOSE_TEXTURES] = 4;
         everything[SPEC_PIXEL_FILTER] = gpu::FILTER_TENT;
-        return std::vector<Words>{featuresOf("cornell_boxes"), everything};
+        return std::vector<Words>{featuresOf("cornell_boxes"), everything,
+                                  featuresOf("still_life", true)};
     }();
     return all;
 }
@@ -80,8 +81,7 @@ Words specialised(Code code, const Words& constants) {
 
 class SwitchedFeature : public testing::TestWithParam<Feature> {};
 
-/// Some other value of it makes another kernel: that of the Cornell box, or else of the one with
-/// everything.
+/// Some other value of it makes another kernel of one of these.
 TEST_P(SwitchedFeature, ChangesAKernelThatStaysValid) {
     const Feature& f = GetParam();
     bool changes = false;
