@@ -108,11 +108,15 @@ class Loops {
 
     /// The variable that the test reads and `next` sets, and no one else in the loop.
     bool findVariable(CountedLoop& loop) {
-        for (const Instruction& i : function_.blocks[loop.next].body) {
-            if (i.op != OpStore) continue;
+        for (const Instruction& i : function_.blocks[loop.test].body) {
+            if (i.op != OpLoad) continue;
             loop.variable = module_.operands(i)[0];
+            if (isLocal(loop.variable) && isSetByNextAlone(loop)) return true;
         }
-        if (!isLocal(loop.variable)) return false;
+        return false;
+    }
+
+    bool isSetByNextAlone(const CountedLoop& loop) const {
         size_t stores = 0;
         for (const size_t b : loop.blocks)
             for (const Instruction& i : function_.blocks[b].body) {
@@ -120,7 +124,8 @@ class Loops {
                 forEachNumber(i, module_.operands(i),
                               [&](uint32_t number) { isNamed |= number == loop.variable; });
                 if (!isNamed || i.op == OpLoad) continue;
-                if (i.op != OpStore || module_.operands(i)[0] != loop.variable) return false;
+                const bool isStore = i.op == OpStore && module_.operands(i)[0] == loop.variable;
+                if (!isStore || b != loop.next) return false;
                 ++stores;
             }
         return stores == 1;
@@ -245,12 +250,16 @@ class Loops {
         }
     }
 
+    /// Puts the variable's value in the place of its loads, up to where the block sets it.
     void setLoads(Block& block, uint32_t variable, uint32_t value) {
-        for (Instruction& i : block.body)
-            if (i.op == OpLoad && module_.operands(i)[0] == variable) {
-                const uint32_t constant = values_.constant(i.type, value);
-                i = module_.make(OpCopyObject, i.type, i.result, {&constant, 1});
-            }
+        for (Instruction& i : block.body) {
+            const bool isOfIt =
+                (i.op == OpLoad || i.op == OpStore) && module_.operands(i)[0] == variable;
+            if (isOfIt && i.op == OpStore) return;
+            if (!isOfIt) continue;
+            const uint32_t constant = values_.constant(i.type, value);
+            i = module_.make(OpCopyObject, i.type, i.result, {&constant, 1});
+        }
     }
 
     Module& module_;

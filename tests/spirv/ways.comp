@@ -54,6 +54,10 @@ uint ofCountedLoops(uint x) {
         if (k == 1u) continue;
         sum += kept[k];
     }
+    uint after = 0u;
+    for (uint i = 0u; i < 3u; ++i, after += i) // read once more behind its step
+        sum += i * after;
+    sum ^= after;
     for (uint i = 0u; i < 0u; ++i)
         sum = 0u;
     for (uint i = 0u; i < TIMES; ++i) {
