@@ -93,8 +93,10 @@ class Switches {
         return module_.operands(*mergeOf(graph_.block(header)))[0];
     }
 
-    bool isLeftAtItsEnd(uint32_t header, const std::vector<uint32_t>& exits) const {
-        return exits.empty() || (exits.size() == 1 && constructs_.headerOf(exits[0]) == header);
+    bool isLeftAtItsEnd(uint32_t header, const std::vector<uint32_t>& exits) {
+        if (exits.size() != 1) return exits.empty();
+        return exits[0] == header || (constructs_.headerOf(exits[0]) == header &&
+                                      graph_.block(exits[0]).body.back().op == OpBranch);
     }
 
     /// Whether a block is another one, or only goes there.

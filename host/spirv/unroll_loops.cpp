@@ -62,7 +62,8 @@ class Loops {
         loop.test = graph_.indexOf(module_.operands(top.body[1])[0]);
         const Block &test = function_.blocks[loop.test], &next = function_.blocks[loop.next];
         if (test.body.back().op != OpBranchConditional || mergeOf(test) != nullptr ||
-            next.body.back().op != OpBranch || mergeOf(next) != nullptr)
+            next.body.back().op != OpBranch || mergeOf(next) != nullptr ||
+            module_.operands(next.body.back())[0] != top.label)
             return {};
         const auto ways = module_.operands(test.body.back());
         loop.body = ways[1];
@@ -151,8 +152,10 @@ class Loops {
         };
         for (const Instruction& i : block.body) {
             const auto operands = module_.operands(i);
-            if (i.op == OpLoad && operands[0] == variable && result.variable)
+            if (i.op == OpLoad && operands[0] == variable && result.variable) {
                 known[i.result] = values_.constant(i.type, *result.variable);
+                continue; // operands may lie elsewhere now
+            }
             if (i.op == OpStore && operands[0] == variable)
                 result.variable = values_.valueOf(constantOf(operands[1]));
             if (i.op == OpBranchConditional)
@@ -223,13 +226,14 @@ class Loops {
 
     void copy(const CountedLoop& loop, size_t time, std::span<const uint32_t> tests,
               std::vector<Block>& copies) {
-        std::unordered_map<uint32_t, uint32_t> numbers;
+        std::unordered_map<uint32_t, uint32_t> numbers; // of the loop: in this copy
         for (const size_t b : loop.blocks) {
             const Block& block = function_.blocks[b];
             numbers[block.label] = b == loop.test ? tests[time] : module_.newNumber();
             for (const Instruction& i : block.body)
                 if (i.result != 0) numbers[i.result] = module_.newNumber();
         }
+        decorateCopies(numbers);
         numbers[function_.blocks[loop.header].label] = tests[time + 1];
         for (const size_t b : loop.blocks) {
             const Block& block = function_.blocks[b];
@@ -247,6 +251,21 @@ class Loops {
             setLoads(copied, loop.variable, loop.values[time]);
             if (b == loop.test) goTo(module_, copied, numbers.at(loop.body));
             copies.push_back(std::move(copied));
+        }
+    }
+
+    /// What is said of a result, such as that it must not be fused with others (`precise`), holds
+    /// for its copies, too.
+    void decorateCopies(const std::unordered_map<uint32_t, uint32_t>& numbers) {
+        const size_t count = module_.decorations.size();
+        for (size_t d = 0; d < count; ++d) {
+            const Instruction decoration = module_.decorations[d];
+            std::vector<uint32_t> operands(module_.operands(decoration).begin(),
+                                           module_.operands(decoration).end());
+            const auto copy = numbers.find(operands[0]);
+            if (copy == numbers.end()) continue;
+            operands[0] = copy->second;
+            module_.decorations.push_back(module_.make(decoration.op, 0, 0, operands));
         }
     }
 
