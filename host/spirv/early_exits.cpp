@@ -14,52 +14,6 @@ namespace {
 //
 // one early exit after the other.
 
-constexpr uint32_t kNone = 0;
-
-/// Which selection, switch or loop each block is directly in.
-class Constructs {
-  public:
-    Constructs(const Module& module, const Graph& graph, Function& function)
-        : module_(module), graph_(graph), function_(function), header_(function.blocks.size()),
-          isKnown_(function.blocks.size()) {
-        enter(function.blocks[0].label, kNone);
-        while (!open_.empty()) {
-            const uint32_t label = open_.back();
-            open_.pop_back();
-            visit(function_.blocks[graph_.indexOf(label)]);
-        }
-    }
-
-    /// The label of its header; kNone: there is none, or the block cannot be reached.
-    uint32_t headerOf(uint32_t label) const { return header_[graph_.indexOf(label)]; }
-
-  private:
-    void enter(uint32_t label, uint32_t header) {
-        const size_t b = graph_.indexOf(label);
-        if (isKnown_[b]) return;
-        isKnown_[b] = true;
-        header_[b] = header;
-        open_.push_back(label);
-    }
-
-    /// Merge blocks are entered with their headers, before anything that jumps there.
-    void visit(const Block& block) {
-        uint32_t header = headerOf(block.label);
-        if (const Instruction* merge = mergeOf(block)) {
-            enter(module_.operands(*merge)[0], header);
-            header = block.label;
-        }
-        graph_.forEachSuccessor(block, [&](uint32_t label) { enter(label, header); });
-    }
-
-    const Module& module_;
-    const Graph& graph_;
-    Function& function_;
-    std::vector<uint32_t> header_;
-    std::vector<bool> isKnown_;
-    std::vector<uint32_t> open_;
-};
-
 /// One function, as it is before a switch changes.
 class Switches {
   public:
@@ -109,11 +63,13 @@ class Switches {
         return label == target;
     }
 
-    /// The last block of what begins with a block, and where it goes: that leaves the switch, and
-    /// nothing before it leaves the construct that the first one is directly in.
+    /// A block that leaves the switch, and where it goes: to the switch's merge block, or to one
+    /// that only goes there.
     struct End {
         uint32_t block = 0, to = 0;
     };
+    /// How the sequence that begins with a block leaves the switch, if it does; selections,
+    /// switches and loops in it are stepped over.
     std::optional<End> endOf(uint32_t label, uint32_t target) {
         for (size_t steps = 0; steps < function_.blocks.size(); ++steps) {
             const Block& block = graph_.block(label);
@@ -130,19 +86,21 @@ class Switches {
         return {};
     }
 
-    /// Whether a block is all of a header's construct from some way on, and leaves the switch.
+    /// Whether a block is directly in a selection of two ways, inside the switch, and jumps out of
+    /// the switch.
     bool isEarlyExit(uint32_t exit, uint32_t target) {
         const uint32_t header = constructs_.headerOf(exit);
-        if (header == kNone || mergeOfHeader(header) == target) return false;
+        if (header == Constructs::kNone || mergeOfHeader(header) == target) return false;
         const Block& block = graph_.block(header);
         return mergeOf(block)->op == OpSelectionMerge &&
                block.body.back().op == OpBranchConditional &&
                graph_.block(exit).body.back().op == OpBranch;
     }
 
-    /// Where a selection ends from which a way leaves the switch early: the last block of what
-    /// follows the selection, or of its other way.
-    std::optional<End> endWith(uint32_t exit, uint32_t target, const std::vector<uint32_t>& exits) {
+    /// The exit beside an early one: of what follows its selection, or, if both ways of that leave
+    /// the switch, of the other way.
+    std::optional<End> endBeside(uint32_t exit, uint32_t target,
+                                 const std::vector<uint32_t>& exits) {
         if (!isEarlyExit(exit, target)) return {};
         const uint32_t header = constructs_.headerOf(exit), merge = mergeOfHeader(header);
         const size_t others = predecessors_[graph_.indexOf(merge)].size();
@@ -175,13 +133,13 @@ class Switches {
         return true;
     }
 
-    /// Gives a way that leaves a switch early, and the one that it is beside, a block where their
-    /// selection ends.
+    /// Has an early exit and the one beside it meet in a block where their selection ends, and what
+    /// follows the selection become its other way.
     bool joinEarlyExit(uint32_t target, const std::vector<uint32_t>& exits) {
         for (const uint32_t exit : exits)
             if (splitBranch(exit, target)) return true;
         for (const uint32_t exit : exits)
-            if (const std::optional<End> end = endWith(exit, target, exits)) {
+            if (const std::optional<End> end = endBeside(exit, target, exits)) {
                 join(constructs_.headerOf(exit), exit, *end);
                 return true;
             }

@@ -6,8 +6,9 @@ namespace stromboli::spirv {
 namespace {
 
 /// For each block, by index, the one that every way to it passes last; the first block's is itself.
-/// Blocks come after those that dominate them (SPIR-V specification, 2.16.1), as the algorithm of
-/// Cooper, Harvey and Kennedy (2001, "A Simple, Fast Dominance Algorithm") asks of its numbers.
+/// By the algorithm of Cooper, Harvey and Kennedy (2001, "A Simple, Fast Dominance Algorithm"), for
+/// which it is enough that blocks come after those that dominate them (SPIR-V
+/// specification, 2.16.1): in another order than theirs it takes more rounds to the same end.
 class Dominators {
   public:
     explicit Dominators(const Graph& graph, const std::vector<std::vector<uint32_t>>& predecessors)
@@ -73,7 +74,8 @@ class Forwarder {
     /// A variable of the function.
     struct Variable {
         bool isPlain = false; ///< it is loaded and stored, as a whole or in parts, and nothing else
-        size_t stores = 0;    ///< those of a part count as two
+        bool isStoredInParts = false;
+        size_t stores = 0; ///< of the whole, or of parts
     };
 
     void findVariables() {
@@ -168,7 +170,9 @@ class Forwarder {
             for (const Instruction& i : function_.blocks[b].body)
                 if (i.op == OpStore && root_[module_.operands(i)[0]] != 0) {
                     const uint32_t pointer = module_.operands(i)[0];
-                    variables_[root_[pointer]].stores += isPart(pointer) ? 2 : 1;
+                    Variable& variable = variables_[root_[pointer]];
+                    variable.isStoredInParts |= isPart(pointer);
+                    ++variable.stores;
                     only[root_[pointer]] = {b, module_.operands(i)[1]};
                 }
         Graph graph(module_, function_);
@@ -177,7 +181,8 @@ class Forwarder {
             std::erase_if(function_.blocks[b].body, [&](const Instruction& i) {
                 if (i.op != OpLoad || !isPlain(module_.operands(i)[0])) return false;
                 const uint32_t variable = module_.operands(i)[0];
-                if (variables_[variable].stores != 1) return false;
+                if (variables_[variable].stores != 1 || variables_[variable].isStoredInParts)
+                    return false;
                 // Loads behind the store in its own block are gone already.
                 const Store& store = only[variable];
                 if (store.block == b || !dominators.dominates(store.block, b)) return false;

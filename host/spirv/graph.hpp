@@ -67,4 +67,52 @@ inline void goTo(Module& module, Block& block, uint32_t label) {
     block.body.back() = module.make(OpBranch, 0, 0, {&label, 1});
 }
 
+/// Which selection, switch or loop each block is directly in.
+class Constructs {
+  public:
+    static constexpr uint32_t kNone = 0;
+
+    Constructs(const Module& module, const Graph& graph, const Function& function)
+        : module_(module), graph_(graph), function_(function), header_(function.blocks.size()),
+          isKnown_(function.blocks.size()) {
+        enter(function.blocks[0].label, kNone);
+        while (!open_.empty()) {
+            const uint32_t label = open_.back();
+            open_.pop_back();
+            visit(function_.blocks[graph_.indexOf(label)]);
+        }
+    }
+
+    /// The label of its header; kNone: there is none, or the block cannot be reached.
+    uint32_t headerOf(uint32_t label) const { return header_[graph_.indexOf(label)]; }
+
+  private:
+    void enter(uint32_t label, uint32_t header) {
+        const size_t b = graph_.indexOf(label);
+        if (isKnown_[b]) return;
+        isKnown_[b] = true;
+        header_[b] = header;
+        open_.push_back(label);
+    }
+
+    /// Merge blocks, and where loops go on, are entered with their headers, before anything that
+    /// jumps there.
+    void visit(const Block& block) {
+        uint32_t header = headerOf(block.label);
+        if (const Instruction* merge = mergeOf(block)) {
+            enter(module_.operands(*merge)[0], header);
+            header = block.label;
+            if (merge->op == OpLoopMerge) enter(module_.operands(*merge)[1], header);
+        }
+        graph_.forEachSuccessor(block, [&](uint32_t label) { enter(label, header); });
+    }
+
+    const Module& module_;
+    const Graph& graph_;
+    const Function& function_;
+    std::vector<uint32_t> header_;
+    std::vector<bool> isKnown_;
+    std::vector<uint32_t> open_;
+};
+
 } // namespace stromboli::spirv

@@ -59,6 +59,8 @@ std::optional<std::vector<uint32_t>> specialise(std::span<const uint32_t> code,
     do
         settle(*module);
     while (splitStructures(*module));
+    // Each of them leaves fewer switches, loops or loads, so that this ends. Loops are unrolled
+    // once nothing leaves them through a switch, and values forwarded once counters are constants.
     while (dissolveSwitches(*module) || unrollLoops(*module) || forwardValues(*module))
         settle(*module);
     return writeModule(*module);

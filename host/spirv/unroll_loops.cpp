@@ -8,7 +8,8 @@
 namespace stromboli::spirv {
 namespace {
 
-/// Loops are unrolled up to so many times, and to so many instructions, as Mesa would unroll them.
+/// Loops are unrolled up to so many times, and to so many instructions, as Mesa would unroll them;
+/// one that runs once is unrolled whatever its size.
 constexpr size_t kMostTimes = 32, kMostInstructions = 832;
 
 /// A loop over a variable from one constant to another, which nothing leaves from within:
@@ -33,7 +34,7 @@ class Loops {
   public:
     Loops(Module& module, Function& function, Values& values)
         : module_(module), function_(function), values_(values), graph_(module, function),
-          predecessors_(graph_.predecessors()) {}
+          predecessors_(graph_.predecessors()), constructs_(module, graph_, function) {}
 
     bool unrollOne() {
         // Inner loops come after those that they are in.
@@ -70,7 +71,9 @@ class Loops {
         const bool isLeftByItsTest = ways[2] == loop.end && loop.body != loop.end &&
                                      from(loop.end).size() == 1 && from(test.label).size() == 1 &&
                                      from(next.label).size() == 1 && from(top.label).size() == 2;
-        if (!isLeftByItsTest || !findBlocks(loop) || !findVariable(loop) || !count(loop)) return {};
+        // No `continue` goes there from within a construct.
+        if (!isLeftByItsTest || constructs_.headerOf(from(next.label)[0]) != top.label) return {};
+        if (!findBlocks(loop) || !findVariable(loop) || !count(loop)) return {};
         return loop;
     }
 
@@ -124,8 +127,9 @@ class Loops {
                 bool isNamed = false;
                 forEachNumber(i, module_.operands(i),
                               [&](uint32_t number) { isNamed |= number == loop.variable; });
-                if (!isNamed || i.op == OpLoad) continue;
-                const bool isStore = i.op == OpStore && module_.operands(i)[0] == loop.variable;
+                if (!isNamed || (i.op == OpLoad && i.count == 1)) continue;
+                const bool isStore =
+                    i.op == OpStore && i.count == 2 && module_.operands(i)[0] == loop.variable;
                 if (!isStore || b != loop.next) return false;
                 ++stores;
             }
@@ -286,6 +290,7 @@ class Loops {
     Values& values_;
     Graph graph_;
     std::vector<std::vector<uint32_t>> predecessors_;
+    Constructs constructs_;
 };
 
 } // namespace
