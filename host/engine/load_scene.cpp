@@ -5,6 +5,7 @@
 #include "host/core/system.hpp"
 #include "host/kernel/arriving_light.hpp"
 #include "host/kernel/feelers.hpp"
+#include "host/kernel/find_occluders.hpp"
 #include "host/kernel/find_portals.hpp"
 #include "host/kernel/glass_before_lights.hpp"
 #include "host/kernel/kernel_features.hpp"
@@ -177,6 +178,9 @@ std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Ca
     built.guide.reset();
     if (mayGuideLight(built, estimator) && built.portals.all.empty())
         built.guide = guideThatPays(scene, built, camera, goThroughGlass);
+    built.occluders = {};
+    if (mayLookAtOccluders(built, estimator))
+        built.occluders = occludersThatPay(scene, built, camera);
     if (!built.lights.weighed) return {};
     HowLightsArePicked how{built.lights.weighed->plain, {}};
     if (samplesLights(estimator.directLight) && estimator.integrator == Integrator::Path)

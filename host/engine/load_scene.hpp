@@ -100,7 +100,8 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
 /// none where light samples go to no sky, or shall aim at none. GpuScene::ofRay, unless it
 /// is known: pictures of other cameras keep it, and the kernel with it. GpuScene::guide: where
 /// light samples may be guided and that pays (guideThatPays()). GpuScene::lights: picked by how
-/// much of their light arrives (howToPick()). Returns the bindings whose contents have changed.
+/// much of their light arrives (howToPick()). GpuScene::occluders: where they pay. Returns the
+/// bindings whose contents have changed.
 std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                                    const Estimator& estimator);
 

@@ -50,13 +50,16 @@ uint32_t loopPasses(const GpuScene& scene, const KernelFeatures& features) {
     // To draw a distance about lamps, and to tell its density.
     const uint32_t foci = features[SPEC_FOCI];
     constexpr uint32_t kFociLoops = 2;
+    // For a light sample to look at them.
+    const uint32_t occluders = features[SPEC_OCCLUDERS];
     // A light is picked for a light sample, and looked up once more for MIS.
     return 1 + passesOfCameraRays(features) + 2 +
            (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
            (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures +
            (scene.media & gpu::MEDIA_VARY ? gpu::GRID_STEPS + 1 : 0) +
            (isGuided ? kGuideLoops * (gpu::GUIDE_LEVELS + 1) : 0) +
-           (portals ? kPortalLoops * (portals + 1) : 0) + (foci ? kFociLoops * (foci + 1) : 0);
+           (portals ? kPortalLoops * (portals + 1) : 0) + (foci ? kFociLoops * (foci + 1) : 0) +
+           (occluders ? occluders + 1 : 0);
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include "host/kernel/light_guide.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/material_rows.hpp"
+#include "host/kernel/occluders.hpp"
 #include "host/kernel/rows.hpp"
 #include "host/render/settings.hpp"
 #include "scene/model/scene.hpp"
@@ -31,7 +32,8 @@ struct GpuScene {
     std::optional<LightGuide>
         guide; ///< likewise (guideThatPays()); none: light samples are not guided
     std::optional<LitCells>
-        lit; ///< where bounces aim; none: not looked for, as packScene() leaves it
+        lit;             ///< where bounces aim; none: not looked for, as packScene() leaves it
+    Occluders occluders; ///< likewise (findOccluders()): of light samples
     double glassBeforeLights =
         0;                  ///< shareThroughGlass() of the picture to come; packScene() leaves it 0
     VisitsOfRay ofRay;      ///< visitsOfRay() of its first picture; packScene() leaves it unknown

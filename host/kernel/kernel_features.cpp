@@ -259,6 +259,16 @@ bool aimsAtPortals(const GpuScene& scene, const Estimator& settings) {
            settings.conventions.ambientAboutNormal;
 }
 
+bool mayLookAtOccluders(const GpuScene& scene, const Estimator& settings) {
+    return lightKinds(scene, settings) != 0 && !lightsThroughGlass(scene, settings);
+}
+
+uint32_t occludersLookedAt(const GpuScene& scene, const Estimator& settings) {
+    constexpr size_t kAtOnce = 4;
+    if (!mayLookAtOccluders(scene, settings)) return 0;
+    return uint32_t((scene.occluders.all.size() + kAtOnce - 1) / kAtOnce * kAtOnce);
+}
+
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning, Seeing what) {
     Estimator estimator = settings;
@@ -272,7 +282,7 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
     for (const KernelConstant ofLight :
          {SPEC_LIGHT_KINDS, SPEC_MIS_LOBES, SPEC_HAS_EMISSION, SPEC_HAS_AMBIENT,
           SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP, SPEC_AMBIENT_BY_BOUNCES, SPEC_BLACK_BACKS,
-          SPEC_MOST_OTHERS})
+          SPEC_MOST_OTHERS, SPEC_OCCLUDERS})
         f[ofLight] = 0;
     // Colours are seen through media.
     constexpr uint32_t kDimming = gpu::MEDIA_DIM | gpu::MEDIA_VARY | gpu::MEDIA_VARY_EXTINCTION;

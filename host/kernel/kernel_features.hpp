@@ -44,6 +44,12 @@ bool guidesLight(const GpuScene& scene, const Estimator& settings);
 /// Whether light samples of these settings go to the sky, and shall aim at the scene's portals.
 bool aimsAtPortals(const GpuScene& scene, const Estimator& settings);
 
+/// Whether light samples of these settings may be stopped by occluders; and how many a kernel looks
+/// at: those of the scene, and some that nothing crosses, so that few numbers of them occur, and
+/// kernels are shared.
+bool mayLookAtOccluders(const GpuScene& scene, const Estimator& settings);
+uint32_t occludersLookedAt(const GpuScene& scene, const Estimator& settings);
+
 /// Those of the kernel that records the path of a sample as it takes it.
 KernelFeatures recordingFeatures(const GpuScene& scene, const Camera& camera,
                                  const Estimator& settings, const DeviceTuning& tuning);

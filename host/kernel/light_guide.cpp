@@ -17,11 +17,11 @@ namespace {
 
 /// Coordinates by which cells are cut: position, then normal.
 constexpr uint32_t kAxes = 6;
-using Place = std::array<float, kAxes>;
+using NotePlace = std::array<float, kAxes>;
 
 /// A light sample to the environment.
 struct Try {
-    Place place;
+    NotePlace place;
     uint32_t tile;
     double value; ///< what it brought
     bool isOfOdd; ///< LightNote::isOfOdd

@@ -1,5 +1,6 @@
 #include "host/kernel/vulkan_backend.hpp"
 
+#include "host/kernel/find_occluders.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/kernel/light_table.hpp"
@@ -49,6 +50,8 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.gapWidth = scene.gapWidth;
     f.portalShare = float(scene.portals.share);
     f.litCells = scene.lit ? uint32_t(scene.lit->cells.size()) : 0;
+    f.leastFall = leastFall(scene.occluders);
+    std::ranges::copy(occluderRows(scene.occluders), std::begin(f.occluders));
     f.cameraMedium =
         camera.medium == kNoMedium ? gpu::NO_MEDIUM : scene.mediumRow.at(camera.medium);
     return f;

@@ -60,14 +60,15 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
     if (RECORDS) recordLightSample(path, light, weight, true);
     const bool transmitted = isBehind(path.surface, light.direction);
     const vec3 origin = leaveThroughMedia(path.surface, light.direction, transmitted);
+    const vec3 toEnd = light.infinite ? light.direction : light.target - origin;
+    if (OCCLUDERS > 0u && !hemisphere && stopsAtOccluder(given, origin, toEnd, light.infinite)) return;
     // What the ray of hemisphere sampling goes through is known when it has arrived.
     if (HAS_ABSORPTION && !hemisphere)
         path.directValue *=
             transmittance(fillingBeyond(path.surface, path.material, path.filling, transmitted).medium,
                           light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
     if (HAS_MEDIA) path.shadowFilling = fillingBeyond(path.surface, path.material, path.filling, transmitted);
-    traceFrom(path, path.surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
-              light.infinite ? light.direction : light.target - origin,
+    traceFrom(path, path.surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin, toEnd,
               light.infinite ? INFINITE_DISTANCE : 1.0, transmitted);
 }
 

@@ -28,9 +28,20 @@ struct Gap {
     float width;         ///< from the light to the surface; > 0
 };
 
+/// A rectangle that stops light samples (occluders.glsl). Of a row, dot(row.xyz, point) + row.w is a function of a point.
+struct Occluder {
+    vec4 plane; ///< the height above it, in units of what a ray has to go beyond on both sides
+    vec4 across, along; ///< where a point of the plane is: within the rectangle in (-1, 1), both
+};
+
+struct Occluders {
+    Occluder all[MOST_OCCLUDERS];
+};
+
 struct Given {
     Frame frame;
     PictureGrid grid;
     OnlyLight onlyLight;
     Gap gap;
+    Occluders occluders;
 };

@@ -37,6 +37,7 @@ uint firstPlace() { return gl_WorkGroupID.x >> 31; }
 #include "include/guide.glsl"
 #include "lights/lights.glsl"
 #include "include/gap_proposal.glsl"
+#include "include/occluders.glsl"
 #include "include/two_sides.glsl"
 #include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"
@@ -51,6 +52,8 @@ Given findGiven() {
     given.grid = pictureGrid(given.frame);
     given.onlyLight = findOnlyLight();
     given.gap = findGap(given.frame, given.onlyLight);
+    for (uint i = 0u; i < OCCLUDERS; ++i)
+        given.occluders.all[i] = occluderOf(frames[dispatches[0].framePlace], i);
     return given;
 }
 

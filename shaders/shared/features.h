@@ -174,9 +174,11 @@
     F(64, bool, AIMS_BOUNCES, false, aimsBounces(scene, settings), own, \
       "bounces that aim at what lamps light", flag, "a second density of bounces (aimed_bounces.glsl)") \
     F(66, bool, LIGHT_THROUGH_GLASS, false, lightsThroughGlass(scene, settings), own, \
-      "light samples through glass", flag, "rays of light samples that go on, bent, where they meet clear glass")
+      "light samples through glass", flag, "rays of light samples that go on, bent, where they meet clear glass") \
+    F(67, uint, OCCLUDERS, 0u, occludersLookedAt(scene, settings), own, \
+      "occluders", count(""), "rectangles of walls that are looked at before a light sample's ray is traced")
 
-#define SPEC_COUNT 67
+#define SPEC_COUNT 68
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -6,6 +6,10 @@
 
 SHARED_BEGIN
 
+/// Rectangles that stop light samples, at most, and rows of each (include/occluders.glsl).
+SHARED_CONST uint MOST_OCCLUDERS = 8u;
+SHARED_CONST uint OCCLUDER_ROWS = 3u;
+
 /// What all dispatches of a picture have in common.
 struct Frame {
     vec3 cameraPosition;
@@ -35,9 +39,11 @@ struct Frame {
     uint cameraMedium; ///< where camera rays begin: the first row of a medium, or NO_MEDIUM
     float portalShare; ///< of light samples to the sky that aim at portals (lights/portals.glsl)
     uint litCells; ///< that bounces aim at, with AIMS_BOUNCES (aimed_bounces.glsl)
-    uint unused0, unused1, unused2;
+    float leastFall; ///< of a ray that crosses an occluder: its square over that of the ray's length
+    uint unused0, unused1;
+    vec4 occluders[OCCLUDER_ROWS * MOST_OCCLUDERS];
 };
-SHARED_ROWS(Frame, 10);
+SHARED_ROWS(Frame, 34);
 SHARED_OFFSET(Frame, nearDistance, 64);
 SHARED_OFFSET(Frame, areaLights, 96);
 
@@ -52,7 +58,8 @@ struct Dispatch {
     uint sharedIterations; ///< of all lanes together until each thread shall have ended one group
     uint beginsNoSample;   ///< 1: the render was stopped; only what is under way may be ended
     uint rayQueue; ///< wavefront scheduler: QUEUE_ number of the rays of this round
-    uint unused0, unused1, unused2;
+    uint framePlace; ///< 0: of the frame in its buffer (docs/theory/kernel.md, "Constants")
+    uint unused0, unused1;
 };
 SHARED_ROWS(Dispatch, 3);
 

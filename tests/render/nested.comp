@@ -34,6 +34,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/guide.glsl"
 #include "lights/lights.glsl"
 #include "include/gap_proposal.glsl"
+#include "include/occluders.glsl"
 #include "include/two_sides.glsl"
 #include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"

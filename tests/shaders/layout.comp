@@ -102,14 +102,16 @@ void putFrame() {
     put(frame.lightSamples), put(frame.branches), put(frame.ambientLight);
     put(frame.lightsInGroup0), put(frame.lightsInGroup1), put(frame.lightsInGroup2);
     put(frame.lensRadius), put(frame.focusDistance), put(frame.cameraMedium);
-    put(frame.portalShare), put(frame.litCells), put(frame.unused0), put(frame.unused1), put(frame.unused2);
+    put(frame.portalShare), put(frame.litCells), put(frame.leastFall), put(frame.unused0), put(frame.unused1);
+    for (uint i = 0u; i < OCCLUDER_ROWS * MOST_OCCLUDERS; ++i)
+        put(frame.occluders[i]);
 }
 
 void putWork() {
     put(dispatch.itemCount), put(dispatch.segmentBase), put(dispatch.softIterations);
     put(dispatch.hardIterations), put(dispatch.laneCount);
     put(dispatch.groupsPerThread), put(dispatch.sharedIterations), put(dispatch.beginsNoSample);
-    put(dispatch.rayQueue), put(dispatch.unused0), put(dispatch.unused1), put(dispatch.unused2);
+    put(dispatch.rayQueue), put(dispatch.framePlace), put(dispatch.unused0), put(dispatch.unused1);
     const WorkItem w = fetchWorkItem(1u);
     put(w.pixel), put(w.target), put(w.column), put(w.row);
     const PixelState s = fetchPixel(1u);

@@ -191,13 +191,15 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
             f.minBounce, f.maxBounces, f.terminationProbability, f.lightCount, f.areaLights,
             f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight, f.lightsInGroup0,
             f.lightsInGroup1, f.lightsInGroup2, f.lensRadius, f.focusDistance, f.cameraMedium,
-            f.portalShare, f.litCells, f.unused0, f.unused1, f.unused2);
+            f.portalShare, f.litCells, f.leastFall, f.unused0, f.unused1);
+        for (const glm::vec4& row : f.occluders)
+            expected_.structure("Frame, occluders", row);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
         expected_.structure("Dispatch", 1u, d.segmentBase, d.softIterations, d.hardIterations,
                             d.laneCount, d.groupsPerThread, d.sharedIterations, d.beginsNoSample,
-                            d.rayQueue, d.unused0, d.unused1, d.unused2);
+                            d.rayQueue, d.framePlace, d.unused0, d.unused1);
         const auto items = patterns.several<gpu::WorkItem>();
         shader.set(BINDING_WORK_ITEMS, items);
         expected_.structure("WorkItem", items[1].pixel, items[1].target, items[1].column,
@@ -262,7 +264,7 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::LightHeader) + sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) +
         sizeof(gpu::LightNode) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
         sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + 4 + 4 + (4 + 4 + 8) + 40 + 12 + 4 + 16 + 8u);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + 4 + 4 + (4 + 4 + 8) + 136 + 12 + 4 + 16 + 8u);
 }
 
 } // namespace
