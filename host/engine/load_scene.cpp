@@ -153,12 +153,30 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
                           lightSelection(estimator), kept ? kept->environment : nullptr,
                           gatheredRows, before);
     if (kept) kept->environment = built.gpu.lights.environment;
-    if (kept) built.gpu.ofRay = kept->ofRay;
-    if (before) built.gpu.ofRay = before->ofRay;
+    const auto decideAs = [&](const auto& first) {
+        built.gpu.ofRay = first.ofRay;
+        built.gpu.looksAtOccluders = first.looksAtOccluders;
+    };
+    if (kept) decideAs(*kept);
+    if (before) decideAs(*before);
     built.seconds = watch.seconds();
     listener.doing(Stage::Preparing, "opening the device and compiling the kernel"); // comes next
     return built;
 }
+
+namespace {
+
+void lookForOccluders(GpuScene& built, const Scene& scene, const Camera& camera) {
+    if (!built.ofRay.isKnown()) return; // the camera sees nothing
+    if (!built.looksAtOccluders) {
+        built.occluders = occludersThatPay(scene, built, camera);
+        built.looksAtOccluders = !built.occluders.all.empty();
+    } else if (*built.looksAtOccluders) {
+        built.occluders = findOccluders(scene, built, camera);
+    }
+}
+
+} // namespace
 
 std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                                    const Estimator& estimator) {
@@ -179,8 +197,7 @@ std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Ca
     if (mayGuideLight(built, estimator) && built.portals.all.empty())
         built.guide = guideThatPays(scene, built, camera, goThroughGlass);
     built.occluders = {};
-    if (mayLookAtOccluders(built, estimator))
-        built.occluders = occludersThatPay(scene, built, camera);
+    if (mayLookAtOccluders(built, estimator)) lookForOccluders(built, scene, camera);
     if (!built.lights.weighed) return {};
     HowLightsArePicked how{built.lights.weighed->plain, {}};
     if (samplesLights(estimator.directLight) && estimator.integrator == Integrator::Path)

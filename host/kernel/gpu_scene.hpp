@@ -34,6 +34,9 @@ struct GpuScene {
     std::optional<LitCells>
         lit;             ///< where bounces aim; none: not looked for, as packScene() leaves it
     Occluders occluders; ///< likewise (findOccluders()): of light samples
+    /// Whether kernels look at them: as pays in the first picture, so that others need no other
+    /// kernel; packScene() leaves it unknown.
+    std::optional<bool> looksAtOccluders;
     double glassBeforeLights =
         0;                  ///< shareThroughGlass() of the picture to come; packScene() leaves it 0
     VisitsOfRay ofRay;      ///< visitsOfRay() of its first picture; packScene() leaves it unknown

@@ -2,6 +2,7 @@
 
 #include "host/kernel/light_table.hpp"
 #include "shaders/shared/medium_types.h"
+#include "shaders/shared/render_types.h"
 #include "shaders/shared/texture_types.h"
 
 #include <fmt/format.h>
@@ -264,9 +265,8 @@ bool mayLookAtOccluders(const GpuScene& scene, const Estimator& settings) {
 }
 
 uint32_t occludersLookedAt(const GpuScene& scene, const Estimator& settings) {
-    constexpr size_t kAtOnce = 4;
-    if (!mayLookAtOccluders(scene, settings)) return 0;
-    return uint32_t((scene.occluders.all.size() + kAtOnce - 1) / kAtOnce * kAtOnce);
+    const bool looks = scene.looksAtOccluders.value_or(false);
+    return looks && mayLookAtOccluders(scene, settings) ? gpu::MOST_OCCLUDERS : 0;
 }
 
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,

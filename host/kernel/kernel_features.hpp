@@ -45,8 +45,7 @@ bool guidesLight(const GpuScene& scene, const Estimator& settings);
 bool aimsAtPortals(const GpuScene& scene, const Estimator& settings);
 
 /// Whether light samples of these settings may be stopped by occluders; and how many a kernel looks
-/// at: those of the scene, and some that nothing crosses, so that few numbers of them occur, and
-/// kernels are shared.
+/// at: all that there may be, or none, so that kernels are shared.
 bool mayLookAtOccluders(const GpuScene& scene, const Estimator& settings);
 uint32_t occludersLookedAt(const GpuScene& scene, const Estimator& settings);
 

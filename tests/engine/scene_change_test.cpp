@@ -259,6 +259,33 @@ TEST(SceneChange, WhatRaysVisitIsMeasuredOnce) {
     EXPECT_EQ(buildScene(*scene, {}, {}, nullptr, kUsualGatheredRows, &packed).gpu.ofRay, visits);
 }
 
+/// Nor whether its light samples end at walls, which are others for another camera.
+TEST(SceneChange, OccludersAreLookedAtAsInTheFirstPicture) {
+    const auto scene = bundled("door_ajar");
+    const auto built = [&] { return packScene(*scene, buildWideBvh(*scene)); };
+    const Camera camera = makeCamera(*scene, CameraChoice::Automatic, 16, 9);
+    Camera outside = camera;
+    outside.position += 100.0 * camera.back;
+    outside.back = -camera.back;
+    GpuScene seen = built(), unseen = built();
+    fitToPicture(seen, *scene, camera, {});
+    EXPECT_TRUE(seen.looksAtOccluders.value());
+    EXPECT_FALSE(seen.occluders.all.empty());
+    fitToPicture(seen, *scene, outside, {});
+    EXPECT_TRUE(seen.looksAtOccluders.value());
+    EXPECT_TRUE(seen.occluders.all.empty()) << "the camera sees nothing";
+    fitToPicture(unseen, *scene, outside, {});
+    EXPECT_FALSE(unseen.looksAtOccluders.has_value());
+    fitToPicture(unseen, *scene, camera, {});
+    EXPECT_TRUE(unseen.looksAtOccluders.value());
+    unseen.looksAtOccluders = false;
+    fitToPicture(unseen, *scene, camera, {});
+    EXPECT_TRUE(unseen.occluders.all.empty());
+    KeptParts kept;
+    kept.looksAtOccluders = true;
+    EXPECT_TRUE(buildScene(*scene, {}, {}, &kept).gpu.looksAtOccluders.value());
+}
+
 TEST(SceneChange, EnvironmentsThatCannotBeAreRefused) {
     Scene lit;
     lit.environment = Environment{};

@@ -44,8 +44,9 @@ class OccludedLight : public DeviceTest {
                       const KernelTuning& tuning = {}) {
         GpuScene scene = packed(loaded);
         scene.occluders = occluders;
+        scene.looksAtOccluders = !occluders.all.empty();
         VulkanBackend backend(testDevice(), scene, kRoomView, settings_, tuning);
-        EXPECT_EQ(backend.features()[SPEC_OCCLUDERS], (occluders.all.size() + 3) / 4 * 4);
+        EXPECT_EQ(backend.features()[SPEC_OCCLUDERS] != 0, !occluders.all.empty());
         Picture picture;
         picture.film = render(backend, settings_);
         picture.rays = backend.counters().rays;
