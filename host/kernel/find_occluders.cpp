@@ -149,8 +149,7 @@ struct Wall {
         return {glm::dot(p - point, across), glm::dot(p - point, along)};
     }
     bool holds(const std::array<glm::dvec3, 3>& corners, double thickness) const {
-        // Of their distances a quarter is what differs, so that no triangle is as far as a ray's
-        // origin has to be.
+        // Within a quarter of it, none is as far from the plane as a ray's origin has to be.
         return std::ranges::all_of(
             corners, [&](const auto& c) { return std::abs(heightOf(c)) <= 0.25 * thickness; });
     }
@@ -226,7 +225,7 @@ void takeTriangles(const Scene& scene, double thickness, std::vector<Wall>& wall
 
 // --- Rectangles ----------------------------------------------------------------------------------
 
-/// Of a plane: what of it is opaque, and the light samples that cross it.
+/// What of a plane is opaque, and where light samples cross it.
 struct Crossed {
     OpaqueCells cells;
     std::vector<std::optional<size_t>> cellOf; ///< by light sample; none: it does not cross one

@@ -47,7 +47,7 @@ class OpaqueCells {
     /// Row by row; none: outside, or not covered.
     std::optional<size_t> cellAt(const glm::dvec2& place) const;
     glm::dvec2 cornerOf(size_t column, size_t row) const;
-    /// Of covered cells alone, with the largest sum of counts; counts: by cell.
+    /// The one of covered cells alone with the largest sum of counts; counts: by cell.
     CellRectangle bestRectangle(std::span<const uint32_t> counts) const;
 
   private:

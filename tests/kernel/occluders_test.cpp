@@ -63,8 +63,8 @@ Scene dark(float window) {
     return scene;
 }
 
-/// Of a sky, of a sky and lamps in the room, of the sun, of a lamp outside of the room, and of a
-/// point light there.
+/// By the light of a sky, of a sky and lamps in the room, of the sun, of a lamp outside of the
+/// room, and of a point light there.
 TEST_F(OccludedLight, IsThePictureWithFewerRays) {
     constexpr float kWindow = 1; // of roomWithMore()
     std::vector<Scene> scenes = {roomWithWindow(kWindow), roomWithMore(2), dark(kWindow),
