@@ -36,8 +36,8 @@ struct StepCounters {
 /// number (loopLimit()). One iteration counts for itself, its traversal steps and pixel filter, the
 /// loop around it that changes pixels and, where there are such, the walk down the light tree, the
 /// loose textures of a material, the materials of a mixture, the steps through a grid of densities,
-/// the walks down the tree of guided light samples, and the portals and near lamps that are chosen
-/// from.
+/// the walks down the tree of guided light samples, the portals and near lamps that are chosen
+/// from, and the occluders.
 uint32_t loopPasses(const GpuScene& scene, const KernelFeatures& features);
 
 /// What a dispatcher works on. All must outlive it.

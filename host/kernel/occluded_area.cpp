@@ -70,7 +70,8 @@ std::pair<Polygon, Polygon> cut(const Polygon& polygon, const glm::dvec2& a, con
     return parts;
 }
 
-/// What of a polygon lies outside of a triangle, in convex pieces; smaller ones are left out.
+/// What of a polygon lies outside of a triangle, in convex pieces. least: the area of the smallest
+/// that counts.
 void subtract(const Polygon& polygon, const FlatTriangle& t, double least,
               std::vector<Polygon>& pieces) {
     std::array<glm::dvec2, 3> c = t.corners;
@@ -145,7 +146,6 @@ OpaqueCells::OpaqueCells(std::span<const FlatTriangle> triangles,
     }
     lo_ = glm::max(lo_, all.lo), hi_ = glm::min(hi_, all.hi);
     if (!(lo_.x < hi_.x && lo_.y < hi_.y)) return;
-    std::vector<std::vector<FlatTriangle>> ofRow(kOpaqueSide);
     isCovered_.assign(kOpaqueSide * kOpaqueSide, false);
     for (size_t row = 0; row < kOpaqueSide; ++row) {
         std::vector<size_t> near;

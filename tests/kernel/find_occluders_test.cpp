@@ -3,8 +3,10 @@
 #include "host/kernel/find_occluders.hpp"
 
 #include "host/bvh/cpu_traversal.hpp"
-#include "host/kernel/light_table.hpp"
+#include "host/kernel/kernel_features.hpp"
 #include "host/kernel/occluded_area.hpp"
+#include "shaders/shared/bsdf_types.h"
+#include "shaders/shared/medium_types.h"
 #include "tests/kernel/window_room.hpp"
 
 #include <gtest/gtest.h>
@@ -196,6 +198,23 @@ TEST(FindOccluders, OnlyWhatIsOpaqueCounts) {
     EXPECT_GT(with([](Material&) {}), 0u);
     EXPECT_EQ(with([](Material& m) { m.alphaMode = AlphaMode::Mask; }), 0u);
     EXPECT_EQ(with([](Material& m) { m.alphaMode = AlphaMode::Blend; }), 0u);
+}
+
+/// Instances may move what a plane holds, media make light go on, and glass bends it.
+TEST(FindOccluders, NoneBesideInstancesMediaOrLightThroughGlass) {
+    const Scene scene = roomWithWindow(0.8f);
+    const GpuScene plain = packed(scene);
+    ASSERT_FALSE(findOccluders(scene, plain, kRoomView).all.empty());
+    GpuScene placed = packed(scene), misty = packed(scene), glazed = packed(scene);
+    placed.hasPlacements = true;
+    EXPECT_TRUE(findOccluders(scene, placed, kRoomView).all.empty());
+    misty.media = gpu::MEDIA_SCATTER;
+    EXPECT_TRUE(findOccluders(scene, misty, kRoomView).all.empty());
+    glazed.looksAtOccluders = true;
+    EXPECT_EQ(occludersLookedAt(glazed, {}), gpu::MOST_OCCLUDERS);
+    glazed.closures.some |= gpu::LOBE_DELTA_TRANSMISSION;
+    glazed.glassBeforeLights = 0.5;
+    EXPECT_EQ(occludersLookedAt(glazed, {}), 0u);
 }
 
 /// An open floor stops no light of the sky above it that falls on it.
