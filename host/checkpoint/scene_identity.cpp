@@ -132,8 +132,9 @@ void add(Sum& sum, const Texture& t) {
 }
 
 void add(Sum& sum, const Environment& e) {
-    const auto& [name, width, height, radiance, strength, rotation] = e;
+    const auto& [name, width, height, radiance, strength, rotation, rowsReachPoles] = e;
     sum.add(width), sum.add(height), sum.addAll(radiance), sum.add(strength), sum.add(rotation);
+    sum.add(rowsReachPoles);
 }
 
 template <class Value>

@@ -31,7 +31,7 @@ struct Try {
 /// from a single sample.
 constexpr double kLargestQuantile = 0.995;
 
-std::vector<Try> triesOf(std::span<const LightNote> notes, const gpu::EnvironmentLight& light) {
+std::vector<Try> triesOf(std::span<const LightNote> notes, const EnvironmentTable& table) {
     std::vector<Try> tries;
     std::vector<double> values;
     tries.reserve(notes.size());
@@ -41,7 +41,7 @@ std::vector<Try> triesOf(std::span<const LightNote> notes, const gpu::Environmen
         if (!isFinite) continue;
         const double value = std::isfinite(r.value) && r.value > 0 ? r.value : 0;
         tries.push_back(
-            {{p.x, p.y, p.z, n.x, n.y, n.z}, tileOf(light, r.direction), value, r.isOfOdd});
+            {{p.x, p.y, p.z, n.x, n.y, n.z}, tileOf(table, r.direction), value, r.isOfOdd});
         if (value > 0) values.push_back(value);
     }
     if (values.empty()) return tries;
@@ -281,7 +281,7 @@ std::vector<Row> guideRows(std::span<const gpu::GuideNode> nodes,
 
 LightGuide learnLightGuide(std::span<const LightNote> notes, const EnvironmentTable& environment) {
     LightGuide guide;
-    const std::vector<Try> tries = triesOf(notes, environment.light);
+    const std::vector<Try> tries = triesOf(notes, environment);
     if (tries.size() < LightGuide::kLeastNotes) return guide;
     const Cells cells = divide(tries);
     guide.gain = gainOf(tries, cells, environment);

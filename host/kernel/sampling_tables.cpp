@@ -153,7 +153,8 @@ struct TileSums {
     double squares = 0; ///< squared luminances times sines
 };
 
-/// The texels of a tile as columns of its alias table. sines: of the polar angle, by row.
+/// The texels of a tile as columns of its alias table. sines: of the polar angle, by row, times the
+/// part that there is of the row.
 TileSums packTile(const Environment& environment, const Tiles& tiles, uint32_t tile,
                   std::span<const double> sines, std::span<Row> texels) {
     std::vector<double> weights;
@@ -209,7 +210,7 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     EnvironmentTable table;
     std::vector<double> weights(tiles.count()), squares(tiles.count()), sines;
     for (uint32_t y = 0; y < height; ++y)
-        sines.push_back(std::sin(glm::pi<double>() * (y + 0.5) / height));
+        sines.push_back(environment.sineOfRow(y) * environment.partOfRow(y));
     const auto rows = std::make_shared<RowPages>(gpu::ENVIRONMENT_COLUMN_ROWS + count);
     const std::span<Row> texels = std::span(*rows).subspan(gpu::ENVIRONMENT_COLUMN_ROWS);
     tbb::parallel_for(0u, tiles.count(), [&](uint32_t tile) {
@@ -224,8 +225,10 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     table.tileProbability = weights;
     std::ranges::copy(tileTable(weights).rows, rows->begin());
     table.texels = rows;
-    // A texel's solid angle is 2 pi / width times pi / height times its sine.
-    const double texelsPerAngle = double(count) / (2 * glm::pi<double>() * glm::pi<double>());
+    // A texel's solid angle is 2 pi / width times pi / span times its sine.
+    const double texelsPerAngle =
+        width * environment.rowSpan() / (2 * glm::pi<double>() * glm::pi<double>());
+    table.rowsReachPoles = environment.rowsReachPoles;
     table.light.width = width;
     table.light.height = height;
     table.light.density = float(texelsPerAngle / sum);
@@ -244,7 +247,8 @@ EnvironmentTable turned(EnvironmentTable table, float rotation) {
     return table;
 }
 
-uint32_t tileOf(const gpu::EnvironmentLight& light, const glm::vec3& direction) {
+uint32_t tileOf(const EnvironmentTable& table, const glm::vec3& direction) {
+    const gpu::EnvironmentLight& light = table.light;
     const glm::vec3 d(light.cosRotation * direction.x - light.sinRotation * direction.z,
                       direction.y,
                       light.cosRotation * direction.z + light.sinRotation * direction.x);
@@ -252,7 +256,8 @@ uint32_t tileOf(const gpu::EnvironmentLight& light, const glm::vec3& direction) 
     const double v =
         std::atan2(std::hypot(double(d.x), double(d.z)), double(d.y)) / glm::pi<double>();
     const auto column = std::min(uint32_t(u * light.width), light.width - 1);
-    const auto row = std::min(uint32_t(v * light.height), light.height - 1);
+    const double place = table.rowsReachPoles ? v * (light.height - 1) + 0.5 : v * light.height;
+    const auto row = std::min(uint32_t(place), light.height - 1);
     return (row >> light.tileShift) * light.tilesAcross + (column >> light.tileShift);
 }
 

@@ -34,6 +34,7 @@ struct EnvironmentTable {
     std::shared_ptr<const RowPages> texels;
     std::vector<double> tileProbability; ///< of a light sample to go to each tile, by weight
     gpu::EnvironmentLight light{};
+    bool rowsReachPoles = false; ///< as Environment has it
     double luminance = 0; ///< integral over all directions, of the radiance times the strength
     /// The mean over all directions of the squared luminance, over the squared mean: 1 for a sky
     /// that is alike everywhere.
@@ -51,7 +52,7 @@ struct TileTable {
 };
 TileTable tileTable(std::span<const double> probabilities);
 /// The tile that lies in a direction (unit).
-uint32_t tileOf(const gpu::EnvironmentLight& light, const glm::vec3& direction);
+uint32_t tileOf(const EnvironmentTable& table, const glm::vec3& direction);
 
 /// Radiance as an EnvironmentTexel holds it, in `low` and `high`: to 2^-18 of its largest
 /// component. Components are finite and not negative; those below 2^-127 may become 0.

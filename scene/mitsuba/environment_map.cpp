@@ -36,32 +36,6 @@ glm::dmat3 axesOf(const Plugin& emitter, bool& isMirrored) {
     return axes;
 }
 
-/// Rows of the picture that lie between two of the file's: more where it is small, as its texels
-/// are then large in the picture.
-uint32_t rowsBetween(uint32_t height) {
-    constexpr uint32_t kEnoughRows = 2048;
-    return std::clamp(kEnoughRows / (height - 1), 2u, 8u);
-}
-
-/// Mitsuba 3 has the first and the last row of texels at the poles, and rows between them at equal
-/// angles; here their middles are half a row away from the poles. With several rows for one the
-/// lines between texels stay, but for corners at the file's rows, half a new row to each side.
-images::FloatImage withRowsAtPoles(const images::FloatImage& image) {
-    if (image.height < 2) return image;
-    const uint32_t between = rowsBetween(image.height);
-    images::FloatImage result{image.width, between * (image.height - 1), {}};
-    result.texels.reserve(size_t(result.width) * result.height);
-    for (uint32_t row = 0; row < result.height; ++row) {
-        const uint32_t below = row / between;
-        const float share = (float(row % between) + 0.5f) / float(between);
-        for (uint32_t column = 0; column < image.width; ++column)
-            result.texels.push_back(glm::mix(image.texels[size_t(below) * image.width + column],
-                                             image.texels[size_t(below + 1) * image.width + column],
-                                             share));
-    }
-    return result;
-}
-
 /// Mitsuba 0.x may state by which power numbers of a picture are decoded, 1 where they are linear.
 /// By now they are light, as sRGB has it.
 void decodeAsStated(const Plugin& emitter, const std::filesystem::path& file,
@@ -101,8 +75,6 @@ void setEnvironmentMap(Context& context, const Plugin& emitter) {
     for (const images::PictureFault& fault : image.faults)
         emitter.replace(fault.kind, fmt::format("{}: {}", file.string(), fault.problem));
     decodeAsStated(emitter, file, image);
-    // In Mitsuba 0.x the rows are where they are here.
-    if (!emitter.isOld) image = withRowsAtPoles(image);
     bool isMirrored = false;
     axesOf(emitter, isMirrored);
     if (isMirrored)
@@ -114,6 +86,8 @@ void setEnvironmentMap(Context& context, const Plugin& emitter) {
     environment.width = image.width;
     environment.height = image.height;
     environment.radiance = std::move(image.texels);
+    // Mitsuba 0.x has the first and the last row half a row away from the poles.
+    environment.rowsReachPoles = !emitter.isOld && image.height > 1;
     environment.strength = float(emitter.number("scale", 0).value_or(1));
     // Mitsuba's picture begins with -z at its left edge, ours has it in the middle.
     environment.rotation = glm::pi<float>();

@@ -31,17 +31,37 @@ vec3 turned(EnvironmentLight e, vec3 w, float direction) {
     return vec3(e.cosRotation * w.x + s * w.z, w.y, e.cosRotation * w.z - s * w.x);
 }
 
-/// The point of the picture, in texels from its left and upper edge, that lies in direction w.
+// Places in the picture are in texels from its left and upper edge. With ROWS_REACH_POLES the zenith is half a row below
+// that edge, and the nadir above the lower one.
+
+/// Rows from the zenith to the nadir.
+float rowSpan(EnvironmentLight e) {
+    float rows = float(int(e.height));
+    if (ROWS_REACH_POLES) rows -= 1.0;
+    return rows;
+}
+
+/// How many rows a place in the picture is below the zenith, and back.
+float belowZenith(float row) {
+    if (ROWS_REACH_POLES) row -= 0.5;
+    return row;
+}
+float rowBelow(float zenith) {
+    if (ROWS_REACH_POLES) zenith += 0.5;
+    return zenith;
+}
+
+/// The place in the picture that lies in direction w.
 vec2 placeInEnvironment(EnvironmentLight e, vec3 w) {
     const vec3 d = turned(e, w, -1.0);
     const float u = atan(d.x, -d.z) * (0.5 * INV_PI) + 0.5;
     const float v = atan(length(d.xz), d.y) * INV_PI;
-    return vec2(u * float(e.width), v * float(e.height));
+    return vec2(u * float(e.width), rowBelow(v * rowSpan(e)));
 }
 
 vec3 directionInEnvironment(EnvironmentLight e, vec2 place) {
     const vec2 around = cosSin(4.0 * place.x / float(e.width)); // of the angle from +z
-    const float polar = PI * place.y / float(e.height);
+    const float polar = PI * belowZenith(place.y) / rowSpan(e);
     const vec3 d = vec3(-sin(polar) * around.y, cos(polar), sin(polar) * around.x);
     return unit(turned(e, d, 1.0));
 }
@@ -58,7 +78,10 @@ EnvironmentRow environmentRow(EnvironmentLight e, uint row, uvec2 columns, float
     const vec3 radiance = mix(left, right, across);
     float weight = luminanceOf(radiance);
     if (GUIDES_LIGHT) weight = mix(ratios.x * luminanceOf(left), ratios.y * luminanceOf(right), across);
-    return EnvironmentRow(radiance, weight * sin((float(int(row)) + 0.5) * perRow));
+    // At a pole by the mean sine of the half row that is there (host/kernel/sampling_tables).
+    float angle = belowZenith(float(int(row)) + 0.5) * perRow;
+    if (ROWS_REACH_POLES) angle = clamp(angle, 0.25 * perRow, PI - 0.25 * perRow);
+    return EnvironmentRow(radiance, weight * sin(angle));
 }
 
 /// Of the tiles of four texels, left and right in the upper row, then in the lower one.
@@ -79,10 +102,10 @@ EnvironmentValue environmentAt(EnvironmentLight e, vec3 strength, uint table, ve
     const uvec2 columns = uvec2(left, left + 1 < width ? left + 1 : 0);
     const uvec2 rows = uvec2(clamp(int(from.y), 0, lowest), clamp(int(from.y) + 1, 0, lowest));
     const vec4 ratios = tileRatios(e, table, columns, rows);
-    const float perRow = PI / float(int(e.height)); // of the polar angle
+    const float perRow = PI / rowSpan(e); // of the polar angle
     const EnvironmentRow upper = environmentRow(e, rows.x, columns, part.x, ratios.xy, perRow);
     const EnvironmentRow lower = environmentRow(e, rows.y, columns, part.x, ratios.zw, perRow);
-    const float sine = sin(place.y * perRow);
+    const float sine = sin(belowZenith(place.y) * perRow);
     return EnvironmentValue(strength * mix(upper.radiance, lower.radiance, part.y),
                             mix(upper.weight, lower.weight, part.y) * e.density / max(sine, TINY));
 }
@@ -129,8 +152,9 @@ LightSample sampleEnvironment(const Frame frame, SurfacePoint s, LightRows rows,
         place = vec2(texel) + 0.5 + vec2(sampleTent(u.x), sampleTent(u.y));
         // Around the picture, and turned back at the poles: beyond them the interpolation repeats the last row.
         place.x += place.x < 0.0 ? float(e.width) : (place.x >= float(e.width) ? -float(e.width) : 0.0);
-        place.y = abs(place.y);
-        if (place.y > float(e.height)) place.y = 2.0 * float(e.height) - place.y;
+        float below = abs(belowZenith(place.y));
+        if (below > rowSpan(e)) below = 2.0 * rowSpan(e) - below;
+        place.y = rowBelow(below);
     }
     vec3 direction = directionInEnvironment(e, place);
     if (aimed.isAimed) {

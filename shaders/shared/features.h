@@ -176,9 +176,12 @@
     F(66, bool, LIGHT_THROUGH_GLASS, false, lightsThroughGlass(scene, settings), own, \
       "light samples through glass", flag, "rays of light samples that go on, bent, where they meet clear glass") \
     F(67, uint, OCCLUDERS, 0u, occludersLookedAt(scene, settings), own, \
-      "occluders", count(""), "rectangles of walls that are looked at before a light sample's ray is traced")
+      "occluders", count(""), "rectangles of walls that are looked at before a light sample's ray is traced") \
+    F(68, bool, ROWS_REACH_POLES, false, f[SPEC_HAS_ENVIRONMENT] && scene.lights.environment && \
+        scene.lights.environment->rowsReachPoles, own, \
+      "environment whose rows reach the poles", flag, "rows of texels whose middles are the zenith and the nadir")
 
-#define SPEC_COUNT 68
+#define SPEC_COUNT 69
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -69,7 +69,8 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
 /// A picture around the scene (scene/model/environment.hpp); it takes the place of ambient light. The header's
 /// colour multiplies its radiance. density: of a sample by solid angle, where the interpolated weight is the sine of the
 /// polar angle. Its texels lie in `tiles` squares of 2^tileShift columns and rows, or what of them is in the picture,
-/// numbered from the left and from the top.
+/// numbered from the left and from the top. ROWS_REACH_POLES: the middles of the first and the last row are the poles, and
+/// half of each row is left out.
 #define ENVIRONMENT_LIGHT(F) \
     F(uint, width, 1, x) \
     F(uint, height, 1, y) \

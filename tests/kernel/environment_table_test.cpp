@@ -52,15 +52,26 @@ Environment noise(uint32_t width, uint32_t height) {
     return e;
 }
 
-TEST(EnvironmentTable, TexelsArePickedByTheirWeight) {
-    const Environment e = noise(16, 8);
+class RowsOfEnvironment : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(EnvironmentTable, RowsOfEnvironment, ::testing::Bool(),
+                         [](const auto& rows) {
+                             return std::string(rows.param ? "ReachThePoles" : "AreHalfARowAway");
+                         });
+
+TEST_P(RowsOfEnvironment, TexelsArePickedByTheirWeight) {
+    Environment e = noise(16, 8);
+    e.rowsReachPoles = GetParam();
     const EnvironmentTable table = packEnvironment(e);
     std::vector<double> weights, probability(128);
     double sum = 0;
-    for (uint32_t y = 0; y < 8; ++y)
+    constexpr double kPi = 3.14159265358979;
+    for (uint32_t y = 0; y < 8; ++y) {
+        // Of a row at a pole half is there, and its sine on the mean is that of its middle.
+        double weight = e.rowsReachPoles ? std::sin(kPi * y / 7) : std::sin(kPi * (y + 0.5) / 8);
+        if (e.rowsReachPoles && (y == 0 || y == 7)) weight = 0.5 * std::sin(kPi * 0.25 / 7);
         for (uint32_t x = 0; x < 16; ++x)
-            sum += weights.emplace_back(luminance(e.radiance[y * 16 + x]) *
-                                        std::sin(3.14159265358979 * (y + 0.5) / 8));
+            sum += weights.emplace_back(luminance(e.radiance[y * 16 + x]) * weight);
+    }
     // Each texel is a tile here: texels are picked as tiles are.
     ASSERT_EQ(table.light.tiles, 128u);
     for (uint32_t i = 0; i < 128; ++i) {
@@ -71,7 +82,24 @@ TEST(EnvironmentTable, TexelsArePickedByTheirWeight) {
     }
     for (uint32_t i = 0; i < 128; ++i)
         EXPECT_NEAR(probability[i], weights[i] / sum, 1e-6) << i;
-    EXPECT_NEAR(table.luminance, sum * 2 * 3.14159265 * 3.14159265 / 128, 1e-4 * table.luminance);
+    const double rows = e.rowsReachPoles ? 7 : 8;
+    EXPECT_NEAR(table.luminance, sum * 2 * kPi * kPi / (16 * rows), 1e-4 * table.luminance);
+}
+
+/// Directions to the middles of texels, and, of rows at a pole, a little beside it.
+TEST_P(RowsOfEnvironment, TilesLieInTheirDirections) {
+    Environment e = noise(16, 8);
+    e.rowsReachPoles = GetParam();
+    e.rotation = 0.4f;
+    const EnvironmentTable table = packEnvironment(e);
+    for (uint32_t y = 0; y < 8; ++y)
+        for (uint32_t x = 0; x < 16; ++x) {
+            const double polar = std::clamp(e.polarAt(y + 0.5), 0.01, 3.13);
+            const double azimuth = 2 * 3.14159265358979 * (x + 0.5) / 16 - e.rotation;
+            const glm::vec3 w(-std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                              std::sin(polar) * std::cos(azimuth));
+            EXPECT_EQ(tileOf(table, w), y * 16 + x);
+        }
 }
 
 /// Of a picture whose last tiles are cut off by its edges.

@@ -32,8 +32,8 @@ glm::vec3 drawn(const Environment& e, const EnvironmentTable& table, Random& ran
         if (random.uniform() > e.radiance[y * e.width + x].x * std::sin(polar)) continue;
         const glm::vec3 w(-std::sin(polar) * std::sin(azimuth), std::cos(polar),
                           std::sin(polar) * std::cos(azimuth));
-        EXPECT_EQ(tileOf(table.light, w) % table.light.tilesAcross, x >> table.light.tileShift);
-        EXPECT_EQ(tileOf(table.light, w) / table.light.tilesAcross, y >> table.light.tileShift);
+        EXPECT_EQ(tileOf(table, w) % table.light.tilesAcross, x >> table.light.tileShift);
+        EXPECT_EQ(tileOf(table, w) / table.light.tilesAcross, y >> table.light.tileShift);
         return w;
     }
 }

@@ -97,9 +97,28 @@ std::string light(const Light& light) {
                        numbers(light.color), numbers(light.direction));
 }
 
+/// The same with several rows for one, whose middles are half a row away from the poles, as all
+/// pictures of pbrt's are.
+Environment withoutPoleRows(const Environment& e) {
+    if (!e.rowsReachPoles) return e;
+    constexpr uint32_t kRows = 8;
+    Environment result = e;
+    result.rowsReachPoles = false;
+    result.height = kRows * (e.height - 1);
+    result.radiance.clear();
+    for (uint32_t row = 0; row < result.height; ++row)
+        for (uint32_t column = 0; column < e.width; ++column) {
+            const size_t above = size_t(row / kRows) * e.width + column;
+            result.radiance.push_back(glm::mix(e.radiance[above], e.radiance[above + e.width],
+                                               (float(row % kRows) + 0.5f) / float(kRows)));
+        }
+    return result;
+}
+
 /// As pbrt-v3 has it, the zenith along z: columns run the other way round, from x on.
-std::string environment(const Environment& e, Version version) {
+std::string environment(const Environment& stated, Version version) {
     EXPECT_EQ(version, Version::V3);
+    const Environment e = withoutPoleRows(stated);
     FloatImage image(e.width, e.height);
     for (const auto& [channel, c] : {std::pair("R", 0), std::pair("G", 1), std::pair("B", 2)})
         for (uint32_t row = 0; row < e.height; ++row)
