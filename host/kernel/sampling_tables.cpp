@@ -209,8 +209,9 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     const Tiles tiles(width, height);
     EnvironmentTable table;
     std::vector<double> weights(tiles.count()), squares(tiles.count()), sines;
+    table.rows = environment.rows();
     for (uint32_t y = 0; y < height; ++y)
-        sines.push_back(environment.sineOfRow(y) * environment.partOfRow(y));
+        sines.push_back(table.rows.sineOf(y) * table.rows.partOf(y));
     const auto rows = std::make_shared<RowPages>(gpu::ENVIRONMENT_COLUMN_ROWS + count);
     const std::span<Row> texels = std::span(*rows).subspan(gpu::ENVIRONMENT_COLUMN_ROWS);
     tbb::parallel_for(0u, tiles.count(), [&](uint32_t tile) {
@@ -227,8 +228,7 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     table.texels = rows;
     // A texel's solid angle is 2 pi / width times pi / span times its sine.
     const double texelsPerAngle =
-        width * environment.rowSpan() / (2 * glm::pi<double>() * glm::pi<double>());
-    table.rowsReachPoles = environment.rowsReachPoles;
+        width * table.rows.span() / (2 * glm::pi<double>() * glm::pi<double>());
     table.light.width = width;
     table.light.height = height;
     table.light.density = float(texelsPerAngle / sum);
@@ -253,11 +253,9 @@ uint32_t tileOf(const EnvironmentTable& table, const glm::vec3& direction) {
                       direction.y,
                       light.cosRotation * direction.z + light.sinRotation * direction.x);
     const double u = std::atan2(double(d.x), -double(d.z)) / (2 * glm::pi<double>()) + 0.5;
-    const double v =
-        std::atan2(std::hypot(double(d.x), double(d.z)), double(d.y)) / glm::pi<double>();
+    const double polar = std::atan2(std::hypot(double(d.x), double(d.z)), double(d.y));
     const auto column = std::min(uint32_t(u * light.width), light.width - 1);
-    const double place = table.rowsReachPoles ? v * (light.height - 1) + 0.5 : v * light.height;
-    const auto row = std::min(uint32_t(place), light.height - 1);
+    const auto row = std::min(uint32_t(table.rows.placeAt(polar)), light.height - 1);
     return (row >> light.tileShift) * light.tilesAcross + (column >> light.tileShift);
 }
 

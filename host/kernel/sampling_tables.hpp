@@ -34,7 +34,7 @@ struct EnvironmentTable {
     std::shared_ptr<const RowPages> texels;
     std::vector<double> tileProbability; ///< of a light sample to go to each tile, by weight
     gpu::EnvironmentLight light{};
-    bool rowsReachPoles = false; ///< as Environment has it
+    SkyRows rows;
     double luminance = 0; ///< integral over all directions, of the radiance times the strength
     /// The mean over all directions of the squared luminance, over the squared mean: 1 for a sky
     /// that is alike everywhere.

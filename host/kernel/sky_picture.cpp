@@ -26,10 +26,11 @@ glm::dvec3 SkyPicture::sample(Random& random) const {
     const auto texel = std::bit_cast<gpu::EnvironmentTexel>(
         (*table_.texels)[gpu::ENVIRONMENT_COLUMN_ROWS + size_t(y) * e.width + x]);
     if (random.uniform() >= texel.threshold) x = texel.alias % e.width, y = texel.alias / e.width;
-    const double around = ((x + double(random.uniform())) / e.width - 0.5) * 2 * std::numbers::pi,
-                 row = y + double(random.uniform()),
-                 polar = (table_.rowsReachPoles ? (row - 0.5) / (e.height - 1) : row / e.height) *
-                         std::numbers::pi; // beyond a pole is on the other side of it
+    const double around = ((x + double(random.uniform())) / e.width - 0.5) * 2 * std::numbers::pi;
+    // Turned back at the poles, of whose rows half is there.
+    const double span = table_.rows.span(),
+                 below = std::abs(y + double(random.uniform()) - table_.rows.pole()),
+                 polar = std::min(below, 2 * span - below) / span * std::numbers::pi;
     const glm::dvec3 d(std::sin(around) * std::sin(polar), std::cos(polar),
                        -std::cos(around) * std::sin(polar));
     const double c = e.cosRotation, s = e.sinRotation;

@@ -42,8 +42,8 @@ EnvironmentMap::EnvironmentMap(const Environment& environment) : environment_(en
     double sum = 0;
     for (int64_t y = 0; y < height; ++y) {
         const double solidAngle = 2 * kPi / double(width) *
-                                  (std::cos(environment.polarAt(double(y))) -
-                                   std::cos(environment.polarAt(double(y + 1))));
+                                  (std::cos(environment.rows().polarAt(double(y))) -
+                                   std::cos(environment.rows().polarAt(double(y + 1))));
         double inRow = 0;
         for (int64_t x = 0; x < width; ++x)
             sumsInRow_.push_back(inRow += neighbourhoodLuminance(x, y) * solidAngle);
@@ -68,9 +68,9 @@ double EnvironmentMap::neighbourhoodLuminance(int64_t x, int64_t y) const {
 glm::dvec3 EnvironmentMap::radiance(const glm::dvec3& direction) const {
     const glm::dvec3 d = rotate(direction, -double(environment_.rotation));
     const double u = std::atan2(d.x, -d.z) / (2 * kPi) + 0.5;
-    const double v = std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi;
+    const double polar = std::acos(std::clamp(d.y, -1.0, 1.0));
     const double x = u * environment_.width - 0.5;
-    const double y = v * environment_.rowSpan() + environment_.poleRow() - 0.5;
+    const double y = environment_.rows().placeAt(polar) - 0.5;
     const double left = std::floor(x), top = std::floor(y);
     const auto column = int64_t(left), row = int64_t(top);
     const glm::dvec3 above = glm::mix(texel(column, row), texel(column + 1, row), x - left);
@@ -86,8 +86,8 @@ EnvironmentMap::Sample EnvironmentMap::sample(const glm::dvec3& u) const {
     const double* const sums = sumsInRow_.data() + row.index * width;
     const Picked column = pick(sums, width, u.y);
     // Uniform by solid angle in the texel: in the azimuth and in the height y.
-    const double top = std::cos(environment_.polarAt(double(row.index)));
-    const double bottom = std::cos(environment_.polarAt(double(row.index + 1)));
+    const double top = std::cos(environment_.rows().polarAt(double(row.index)));
+    const double bottom = std::cos(environment_.rows().polarAt(double(row.index + 1)));
     const double y = glm::mix(top, bottom, u.z);
     const double azimuth =
         2 * kPi * ((double(column.index) + column.rest) / double(width) - 0.5); // from -z

@@ -75,7 +75,7 @@ double meanLuminance(const Environment& e) {
         double row = 0;
         for (uint32_t x = 0; x < e.width; ++x)
             row += luminance(e.radiance[x + size_t(e.width) * y]);
-        const double weight = e.sineOfRow(y) * e.partOfRow(y);
+        const double weight = e.rows().sineOf(y) * e.rows().partOf(y);
         sum += weight * row / e.width;
         weights += weight;
     }

@@ -41,14 +41,14 @@ float rowSpan(EnvironmentLight e) {
     return rows;
 }
 
-/// How many rows a place in the picture is below the zenith, and back.
-float belowZenith(float row) {
-    if (ROWS_REACH_POLES) row -= 0.5;
-    return row;
+/// How many rows a place in the picture is below the zenith, and the place that is so many rows below it.
+float rowsBelowZenith(float place) {
+    if (ROWS_REACH_POLES) place -= 0.5;
+    return place;
 }
-float rowBelow(float zenith) {
-    if (ROWS_REACH_POLES) zenith += 0.5;
-    return zenith;
+float placeBelowZenith(float rows) {
+    if (ROWS_REACH_POLES) rows += 0.5;
+    return rows;
 }
 
 /// The place in the picture that lies in direction w.
@@ -56,12 +56,12 @@ vec2 placeInEnvironment(EnvironmentLight e, vec3 w) {
     const vec3 d = turned(e, w, -1.0);
     const float u = atan(d.x, -d.z) * (0.5 * INV_PI) + 0.5;
     const float v = atan(length(d.xz), d.y) * INV_PI;
-    return vec2(u * float(e.width), rowBelow(v * rowSpan(e)));
+    return vec2(u * float(e.width), placeBelowZenith(v * rowSpan(e)));
 }
 
 vec3 directionInEnvironment(EnvironmentLight e, vec2 place) {
     const vec2 around = cosSin(4.0 * place.x / float(e.width)); // of the angle from +z
-    const float polar = PI * belowZenith(place.y) / rowSpan(e);
+    const float polar = PI * rowsBelowZenith(place.y) / rowSpan(e);
     const vec3 d = vec3(-sin(polar) * around.y, cos(polar), sin(polar) * around.x);
     return unit(turned(e, d, 1.0));
 }
@@ -78,8 +78,8 @@ EnvironmentRow environmentRow(EnvironmentLight e, uint row, uvec2 columns, float
     const vec3 radiance = mix(left, right, across);
     float weight = luminanceOf(radiance);
     if (GUIDES_LIGHT) weight = mix(ratios.x * luminanceOf(left), ratios.y * luminanceOf(right), across);
-    // At a pole by the mean sine of the half row that is there (host/kernel/sampling_tables).
-    float angle = belowZenith(float(int(row)) + 0.5) * perRow;
+    // Of a row at a pole, that in the middle of the half that is there (SkyRows in scene/model/environment.hpp).
+    float angle = rowsBelowZenith(float(int(row)) + 0.5) * perRow;
     if (ROWS_REACH_POLES) angle = clamp(angle, 0.25 * perRow, PI - 0.25 * perRow);
     return EnvironmentRow(radiance, weight * sin(angle));
 }
@@ -105,7 +105,7 @@ EnvironmentValue environmentAt(EnvironmentLight e, vec3 strength, uint table, ve
     const float perRow = PI / rowSpan(e); // of the polar angle
     const EnvironmentRow upper = environmentRow(e, rows.x, columns, part.x, ratios.xy, perRow);
     const EnvironmentRow lower = environmentRow(e, rows.y, columns, part.x, ratios.zw, perRow);
-    const float sine = sin(belowZenith(place.y) * perRow);
+    const float sine = sin(rowsBelowZenith(place.y) * perRow);
     return EnvironmentValue(strength * mix(upper.radiance, lower.radiance, part.y),
                             mix(upper.weight, lower.weight, part.y) * e.density / max(sine, TINY));
 }
@@ -152,9 +152,9 @@ LightSample sampleEnvironment(const Frame frame, SurfacePoint s, LightRows rows,
         place = vec2(texel) + 0.5 + vec2(sampleTent(u.x), sampleTent(u.y));
         // Around the picture, and turned back at the poles: beyond them the interpolation repeats the last row.
         place.x += place.x < 0.0 ? float(e.width) : (place.x >= float(e.width) ? -float(e.width) : 0.0);
-        float below = abs(belowZenith(place.y));
+        float below = abs(rowsBelowZenith(place.y));
         if (below > rowSpan(e)) below = 2.0 * rowSpan(e) - below;
-        place.y = rowBelow(below);
+        place.y = placeBelowZenith(below);
     }
     vec3 direction = directionInEnvironment(e, place);
     if (aimed.isAimed) {

@@ -178,7 +178,7 @@
     F(67, uint, OCCLUDERS, 0u, occludersLookedAt(scene, settings), own, \
       "occluders", count(""), "rectangles of walls that are looked at before a light sample's ray is traced") \
     F(68, bool, ROWS_REACH_POLES, false, f[SPEC_HAS_ENVIRONMENT] && scene.lights.environment && \
-        scene.lights.environment->rowsReachPoles, own, \
+        scene.lights.environment->rows.reachPoles, own, \
       "environment whose rows reach the poles", flag, "rows of texels whose middles are the zenith and the nadir")
 
 #define SPEC_COUNT 69

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -93,9 +95,10 @@ TEST(EnvironmentLight, OfOneColourLightsAsAmbientLight) {
 
 TEST(EnvironmentLight, IrradianceIsThatOfTheInterpolatedPicture) {
     Environment e = roughPicture(16, 8, 1);
-    for (const double rotation : {0.0, 1.0, 2.0}) {
-        e.rotation = float(rotation);
-        e.rowsReachPoles = rotation == 2;
+    for (const auto& [rotation, rowsReachPoles] :
+         {std::pair(0.0f, false), {1.0f, false}, {2.0f, true}}) {
+        e.rotation = rotation;
+        e.rowsReachPoles = rowsReachPoles;
         for (const DirectLight mode : kDirectLightModes) {
             RenderSettings s = smallPicture(400, 1);
             s.estimator.directLight = mode;
@@ -148,9 +151,15 @@ TEST(EnvironmentLight, IsSeenByTheCameraWhereNothingIsInTheWay) {
     Environment e = roughPicture(16, 8, 2);
     e.rotation = 0.7f;
     e.strength = 3;
-    for (const glm::dvec2 place :
-         {glm::dvec2(3.3, 1.7), {0.1, 2.2}, {15.9, 0.6}, {8, 3.5}, {8, 3.6}}) {
-        e.rowsReachPoles = place.y > 3.5 || place.x > 15;
+    // Rows are counted from the zenith.
+    for (const auto& [column, below, rowsReachPoles] : {std::tuple(3.3, 1.7, false),
+                                                        {0.1, 2.2, false},
+                                                        {15.9, 0.3, false},
+                                                        {8.0, 3.5, false},
+                                                        {15.9, 0.3, true},
+                                                        {8.0, 3.1, true}}) {
+        e.rowsReachPoles = rowsReachPoles;
+        const glm::dvec2 place(column, below + (rowsReachPoles ? 0.5 : 0));
         const Scene scene = floorIn(e);
         const glm::dvec3 d = directionOf(e, place.x, place.y);
         // The direction's place is found to some 1e-5 of a texel, and neighbours differ a

@@ -144,6 +144,12 @@ TEST(MitsubaEmitters, EnvironmentRowsReachThePoles) {
     EXPECT_FLOAT_EQ(e.radiance[0].x, 1);
     EXPECT_EQ(e.radiance[2].x, 0);
     EXPECT_FLOAT_EQ(e.rotation, glm::pi<float>());
+    writeFile("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" +
+                             std::string("\x80\x80\x80\x81\x80\x80\x80\x81", 8));
+    EXPECT_FALSE(loadInside("<emitter type=\"envmap\"><string name=\"filename\" "
+                            "value=\"sky.hdr\"/></emitter>")
+                     .environment->rowsReachPoles)
+        << "one row has no poles to reach";
 }
 
 /// An environment that is turned turns the scene the other way: its own y stays up.

@@ -100,6 +100,15 @@ TEST(MitsubaOldPictures, ReliefHasNoRulesOfLaterVersions) {
     }
 }
 
+TEST(MitsubaOldPictures, AroundTheSceneEndAtThePoles) {
+    const std::vector<std::array<uint8_t, 4>> grey(4, {200, 200, 200, 255});
+    const Scene scene =
+        loadOld("<emitter type=\"envmap\"><string name=\"filename\" value=\"" +
+                writePicture("rows.tga", 2, 2, grey) + "\"/></emitter>" + rectangleOf(""));
+    EXPECT_EQ(scene.environment->height, 2u);
+    EXPECT_FALSE(scene.environment->rowsReachPoles) << "their middles are half a row away";
+}
+
 TEST(MitsubaOldPictures, AroundTheSceneHaveAGamma) {
     const auto radiance = [](const std::string& inside) {
         const Scene scene =
