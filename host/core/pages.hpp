@@ -22,6 +22,16 @@ constexpr std::size_t wholePages(std::size_t bytes) {
 /// has no such pages.
 void preferHugePages(std::span<std::byte> memory);
 
+/// The same for memory that all will be written to, as long as the system gives such pages at once:
+/// it takes them now, and small ones behind the rest after one that took longer than 512 small ones
+/// (secondsOfASmallPage()). In a virtual machine that has given its free memory back a page of
+/// 2 MiB may take thirty times as long as one that is there, and small ones come from what has not
+/// been given back. Bytes in pages that are taken have any value.
+void takeHugePages(std::span<std::byte> memory);
+
+/// CPU seconds that the system takes to give a page of 4 KiB: the mean of 64, measured once.
+double secondsOfASmallPage();
+
 /// Memory in whole pages that belong to one array alone, so that a device of which the memory is
 /// the host's can read the array where it lies (vulkan::Buffer).
 template <class T>
@@ -35,7 +45,7 @@ struct PageAllocator {
     T* allocate(std::size_t n) {
         const std::size_t bytes = wholePages(n * sizeof(T));
         void* const memory = ::operator new(bytes, std::align_val_t(kPageBytes));
-        preferHugePages({static_cast<std::byte*>(memory), bytes});
+        takeHugePages({static_cast<std::byte*>(memory), bytes});
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t) {

@@ -64,15 +64,21 @@ void useDriverThreads(uint32_t threads) {
 
 void useMemoryInLargePieces() {
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) // the sanitizer has its own
-    constexpr size_t kInHugePages = size_t(512) << 20;   // as much as starts of most scenes ask for
+    constexpr size_t kHeap = size_t(512) << 20;          // as much as starts of most scenes ask for
+    // In a virtual machine that gives its free memory back a page of 2 MiB takes 0.2 ms, or 7 ms
+    // where the memory has to come back first: as long as 512 small ones of 0.4 or 14 us. Small
+    // ones come from what has not been given back, but may cost an exception that the machine's
+    // host has to serve. Between these two, large ones are worth it (docs/results.md, "Pages of
+    // 2 MiB").
+    constexpr double kDearPage = 5e-6;
     constexpr int kKept = 1 << 30; // more than that, or it would go back at once
     ::mallopt(M_TRIM_THRESHOLD, kKept);
     ::mallopt(M_MMAP_THRESHOLD, kKept);
     // A thread's own arena asks the system for each 4 KiB more; that of all asks for this much.
     ::mallopt(M_ARENA_MAX, 1);
     ::mallopt(M_TOP_PAD, 1 << 20);
-    void* const heap = std::malloc(kInHugePages); // addresses, behind which there is nothing yet
-    if (heap) preferHugePages({static_cast<std::byte*>(heap), kInHugePages});
+    auto* const heap = static_cast<std::byte*>(std::malloc(kHeap)); // nothing is behind it yet
+    if (heap && secondsOfASmallPage() > kDearPage) preferHugePages({heap, kHeap});
     std::free(heap);
 #endif
 }

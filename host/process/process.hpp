@@ -18,11 +18,11 @@ void useWideVectors();
 /// Has lavapipe work on so many threads. To be called as useWideVectors() is.
 void useDriverThreads(uint32_t threads);
 
-/// Memory comes from the system in pages of 2 MiB, where it has them, and is kept when it is freed
-/// for what is asked for next, by whatever thread. Small pages are asked for one at a time, which
-/// is a fifth of a start's CPU time in virtual machines; between two passes the plan takes and
-/// frees many times the picture; and the driver compiles kernels on a thread of its own, which
-/// would ask thousands of times. To be called before much is allocated.
+/// Memory that is freed is kept for what is asked for next, by whatever thread: between two passes
+/// the plan takes and frees many times the picture, and the driver compiles kernels on a thread of
+/// its own, which would ask thousands of times. It comes from the system in pages of 2 MiB where
+/// small ones, which are asked for one at a time, take long: a fifth of a start's CPU time in some
+/// virtual machines. To be called before much is allocated.
 void useMemoryInLargePieces();
 
 } // namespace stromboli::process
