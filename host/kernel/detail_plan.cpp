@@ -79,6 +79,24 @@ bool isOpaque(const TextureImage& image) {
     return true;
 }
 
+/// Whether the half floats of a picture are fractions of 65,535 as exactly: the rounding of one is
+/// at most that of a half float from 2^-6 on. Of smaller ones only alpha counts by its difference,
+/// 2^-17 here, and not by its ratio.
+bool areFractions(const TextureImage& image) {
+    constexpr uint32_t kLeast = 0x2400, kOne = 0x3C00; // 2^-6 and 1 as half floats
+    const auto isColor = [](uint32_t half) {
+        return half == 0 || (half >= kLeast && half <= kOne);
+    };
+    if (image.format != TexelFormat::RgbaHalf) return false;
+    for (size_t i = 0; i + 1 < image.words.size(); i += 2) {
+        const uint32_t low = image.words[i], high = image.words[i + 1];
+        if (!isColor(low & 0xFFFF) || !isColor(low >> 16) || !isColor(high & 0xFFFF) ||
+            high >> 16 > kOne)
+            return false;
+    }
+    return true;
+}
+
 class Planner {
   public:
     /// fewestMaps: that a bundle has.
@@ -113,16 +131,20 @@ class Planner {
         for (const TextureUse& use : m.textures)
             if (hasEffect(m, use.slot)) material.textures.push_back(use);
         std::ranges::sort(material.textures, {}, &TextureUse::slot);
-        for (const TextureUse& use : material.textures) {
-            addTexture(use);
-            material.coatHasNormal |= use.slot == TextureSlot::Normal;
-            material.coatHasNormal |= use.slot == TextureSlot::ClearcoatNormal;
-        }
+        for (const TextureUse& use : material.textures)
+            material.coatHasNormal |=
+                use.slot == TextureSlot::Normal || use.slot == TextureSlot::ClearcoatNormal;
         material.coatHasNormal &= m.kind == MaterialKind::Principled && m.principled.clearcoat > 0;
         takeOutBundle(material);
-        if (material.bundle) plan_.texelKinds |= gpu::TEXEL_KIND_BUNDLE;
+        if (material.bundle) {
+            plan_.texelKinds |= gpu::TEXEL_KIND_BUNDLE;
+            for (const auto& map : *material.bundle)
+                if (map) addTexture(*map);
+        }
+        takeOutOpacity(material);
         for (const TextureUse& use : material.textures) {
-            addLoose(use);
+            addTexture(use);
+            addLoose(use, use.slot == TextureSlot::BaseColor ? material.opacity : std::nullopt);
             plan_.looseSlots |= 1u << uint32_t(use.slot);
         }
         plan_.mostTextures = std::max(plan_.mostTextures, uint32_t(material.textures.size()));
@@ -139,17 +161,24 @@ class Planner {
         const uint32_t before = plan_.attributes;
         addTexture(use);
         plan_.attributes = before;
-        addLoose(use);
+        addLoose(use, std::nullopt);
     }
 
-    /// Adds a texture that is in no bundle.
-    void addLoose(const TextureUse& use) {
+    /// Adds a texture that is in no bundle. opacity: that its texels hold.
+    void addLoose(const TextureUse& use, const std::optional<TextureUse>& opacity) {
+        if (opacity) {
+            plan_.texelKinds |=
+                gpu::TEXEL_KIND_LOOSE | gpu::TEXEL_KIND_BYTES | gpu::TEXEL_KIND_GATHERED;
+            return;
+        }
         const Texture& texture = scene_.textures[use.texture];
         const DetailPlan::EdgedImage edged(scene_, texture);
-        const bool isHalf = imageOf(use).format == TexelFormat::RgbaHalf;
-        if (!gathered_.contains(edged) && !plan_.plainImages.contains(edged))
+        if (!gathered_.contains(edged) && !plan_.plainImages.contains(edged)) {
             (takeRows(edgedTexels(texture, 1)) ? gathered_ : plan_.plainImages).insert(edged);
+            if (areFractions(imageOf(use))) plan_.fractionImages.insert(texture.image);
+        }
         const bool isPlain = plan_.plainImages.contains(edged);
+        const bool isHalf = plan_.isHalf(scene_, texture);
         plan_.texelKinds |= gpu::TEXEL_KIND_LOOSE;
         plan_.texelKinds |= isHalf ? gpu::TEXEL_KIND_HALF : gpu::TEXEL_KIND_BYTES;
         plan_.texelKinds |= isPlain ? gpu::TEXEL_KIND_PLAIN : gpu::TEXEL_KIND_GATHERED;
@@ -190,6 +219,24 @@ class Planner {
             const uint32_t slot = uint32_t(use.slot);
             return slot < bundle.size() && bundle[slot] && bundle[slot]->texture == use.texture;
         });
+    }
+
+    /// An opacity that is looked up as the base colour is, which has none, becomes the alpha of its
+    /// texels: one lookup for two. Leaves are cut out of their pictures so.
+    void takeOutOpacity(DetailPlan::MaterialPlan& material) {
+        std::vector<TextureUse>& textures = material.textures;
+        const auto color = std::ranges::find(textures, TextureSlot::BaseColor, &TextureUse::slot);
+        const auto opacity = std::ranges::find(textures, TextureSlot::Opacity, &TextureUse::slot);
+        if (color == textures.end() || opacity == textures.end()) return;
+        if (!areLookedUpAlike(*color, *opacity) || !isOpaque(imageOf(*color))) return;
+        for (const TextureUse& use : {*color, *opacity})
+            if (imageOf(use).format == TexelFormat::RgbaHalf && !areFractions(imageOf(use))) return;
+        const DetailPlan::EdgedImage key(scene_, *color, *opacity);
+        if (!gathered_.contains(key) && !takeRows(edgedTexels(scene_.textures[color->texture], 1)))
+            return;
+        gathered_.insert(key);
+        material.opacity = *opacity;
+        textures.erase(opacity);
     }
 
     bool isBundled(const TextureUse& use) const {
@@ -258,6 +305,12 @@ class Planner {
 };
 
 } // namespace
+
+bool DetailPlan::isHalf(const Scene& scene, const Texture& texture) const {
+    return scene.images[texture.image].format == TexelFormat::RgbaHalf &&
+           (plainImages.contains(EdgedImage(scene, texture)) ||
+            !fractionImages.contains(texture.image));
+}
 
 DetailPlan::EdgedBundle::EdgedBundle(const Scene& scene, const Bundle& bundle) {
     images.fill(kNone);

@@ -20,12 +20,25 @@ struct DetailPlan {
     /// A picture, what is seen beyond its edges, and how it is decoded: what the rows of a texture
     /// depend on.
     struct EdgedImage {
+        static constexpr uint32_t kNone = ~0u;
         uint32_t image = 0; ///< into Scene::images
         Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
         bool srgb = false;
+        /// Another picture of its size, of which red, or 1 - red, is the alpha; kNone: it has its
+        /// own.
+        uint32_t opacityImage = kNone;
+        bool opacityIsSrgb = false, opacityIsNegative = false;
         EdgedImage(const Scene& scene, const Texture& t)
             : image(t.image), wrapU(t.wrapU), wrapV(t.wrapV),
               srgb(t.srgb && scene.images[t.image].format == TexelFormat::Rgba8) {}
+        /// With the alpha of a texture that is looked up alike.
+        EdgedImage(const Scene& scene, const TextureUse& use, const TextureUse& opacity)
+            : EdgedImage(scene, scene.textures[use.texture]) {
+            const EdgedImage other(scene, scene.textures[opacity.texture]);
+            opacityImage = other.image;
+            opacityIsSrgb = other.srgb;
+            opacityIsNegative = opacity.scale < 0;
+        }
         auto operator<=>(const EdgedImage&) const = default;
     };
     /// By slot, of the first gpu::BUNDLE_MAPS slots; those there are look up pictures of one size
@@ -42,15 +55,17 @@ struct DetailPlan {
     };
     struct MaterialPlan {
         std::optional<Bundle> bundle;
-        std::vector<TextureUse> textures; ///< that are in no bundle, in the order of their slots
-        bool isTransparent = false;       ///< may be partly not there
-        bool isHidden = false;            ///< camera rays pass it
-        bool isBlend = false;             ///< another material may take its place
-        bool coatHasNormal = false;       ///< gpu::DETAIL_COAT_HAS_NORMAL
+        std::vector<TextureUse> textures;  ///< that are in no bundle, in the order of their slots
+        std::optional<TextureUse> opacity; ///< that texels of the base colour hold as their alpha
+        bool isTransparent = false;        ///< may be partly not there
+        bool isHidden = false;             ///< camera rays pass it
+        bool isBlend = false;              ///< another material may take its place
+        bool coatHasNormal = false;        ///< gpu::DETAIL_COAT_HAS_NORMAL
         bool operator==(const MaterialPlan&) const = default;
     };
     std::vector<MaterialPlan> materials; ///< by material of the scene
     std::set<EdgedImage> plainImages;    ///< of textures in no bundle: gpu::TEXELS_PLAIN
+    std::set<uint32_t> fractionImages;   ///< of half floats, which gathered rows hold as fractions
 
     uint32_t textureSlots = 0; ///< bit n: a texture in gpu::TEXTURE_ slot n
     uint32_t looseSlots = 0;   ///< the same of textures in no bundle
@@ -63,6 +78,8 @@ struct DetailPlan {
     bool hasTangentFrames = false; ///< a BSDF depends on the direction of tangents
 
     bool operator==(const DetailPlan&) const = default;
+    /// gpu::TEXELS_HALF
+    bool isHalf(const Scene& scene, const Texture& texture) const;
     bool hasBundles() const { return (texelKinds & gpu::TEXEL_KIND_BUNDLE) != 0; }
     /// Materials have a gpu::MaterialDetail.
     bool hasMaterialDetails() const { return textureSlots != 0 || hasAlpha || hasBlends; }

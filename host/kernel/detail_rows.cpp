@@ -103,13 +103,19 @@ gpu::TextureUse packLookup(const Scene& scene, const TextureUse& use) {
     return g;
 }
 
-gpu::TextureUse packUse(const Scene& scene, const TextureUse& use, TexelPacker& texels) {
+/// opacity: that the texels hold as their alpha.
+gpu::TextureUse packUse(const Scene& scene, const TextureUse& use,
+                        const std::optional<TextureUse>& opacity, TexelPacker& texels) {
     const Texture& texture = scene.textures[use.texture];
-    const bool isHalf = scene.images[texture.image].format == TexelFormat::RgbaHalf;
     gpu::TextureUse g = packLookup(scene, use);
+    if (opacity) {
+        g.firstRow = texels.firstRowOf(use, *opacity);
+        return g;
+    }
     g.firstRow = texels.firstRowOf(texture);
-    if (texels.isPlain(texture)) g.flags |= gpu::TEXELS_PLAIN;
-    g.flags |= (isHalf ? gpu::TEXELS_HALF : 0) | (texture.srgb && !isHalf ? gpu::TEXELS_SRGB : 0);
+    const bool isSrgb = texture.srgb && scene.images[texture.image].format == TexelFormat::Rgba8;
+    g.flags |= (texels.isPlain(texture) ? gpu::TEXELS_PLAIN : 0) |
+               (texels.isHalf(texture) ? gpu::TEXELS_HALF : 0) | (isSrgb ? gpu::TEXELS_SRGB : 0);
     return g;
 }
 
@@ -159,7 +165,8 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
         if (use.slot == TextureSlot::ClearcoatNormal)
             detail.looseTextures |= (number + 1) << gpu::DETAIL_COAT_NORMAL_SHIFT;
         ++number;
-        appendRows(uses, packUse(scene, use, texels));
+        const bool isColor = use.slot == TextureSlot::BaseColor;
+        appendRows(uses, packUse(scene, use, isColor ? plan.opacity : std::nullopt, texels));
     }
     if (plan.isBlend) {
         detail.flags |= gpu::DETAIL_IS_BLEND;
@@ -193,7 +200,7 @@ DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPl
                                                      plan.hasBundles(), texels));
     for (const Light& light : scene.lights) {
         std::vector<Row>& rows = details.ofLights.emplace_back();
-        if (light.picture) appendRows(rows, packUse(scene, *light.picture, texels));
+        if (light.picture) appendRows(rows, packUse(scene, *light.picture, std::nullopt, texels));
     }
     texels.pack();
     return details;

@@ -3,6 +3,7 @@
 #include "scene/model/srgb.hpp"
 #include "shaders/shared/texture_types.h"
 
+#include <glm/gtc/packing.hpp>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -33,6 +34,34 @@ const ByteTable& byteTable() {
 uint32_t byteOf(uint32_t word, uint32_t channel) {
     return word >> 8 * channel & 0xFF;
 }
+
+/// Of two half floats of [0, 1] the fractions of 65,535.
+uint32_t fractionsOfHalves(uint32_t word) {
+    const glm::vec2 values = glm::unpackHalf2x16(word);
+    return uint32_t(std::lround(65535 * values.x)) | uint32_t(std::lround(65535 * values.y)) << 16;
+}
+
+/// The texels of a picture of bytes, or of half floats of [0, 1], as fractions of 65,535, linear.
+class Fractions {
+  public:
+    /// srgb: the bytes of its colours are sRGB.
+    Fractions(const TextureImage& image, bool srgb)
+        : words_(image.words.data()), isHalf_(image.format == TexelFormat::RgbaHalf),
+          color_(srgb ? byteTable().linearFractions : byteTable().fractions) {}
+
+    std::array<uint32_t, 2> texel(size_t i) const {
+        if (isHalf_)
+            return {fractionsOfHalves(words_[2 * i]), fractionsOfHalves(words_[2 * i + 1])};
+        const uint32_t w = words_[i];
+        return {color_[byteOf(w, 0)] | color_[byteOf(w, 1)] << 16,
+                color_[byteOf(w, 2)] | byteTable().fractions[byteOf(w, 3)] << 16};
+    }
+
+  private:
+    const uint32_t* words_;
+    bool isHalf_;
+    const std::array<uint32_t, 256>& color_;
+};
 
 /// The texel of a picture of n texels that stands for the i-th, i from -1 to n.
 uint32_t edged(int64_t i, uint32_t n, Wrap wrap) {
@@ -78,7 +107,14 @@ uint32_t TexelPacker::firstRowOf(const Texture& texture) {
     if (plain)
         appendPlain(image.words);
     else
-        appendGathered(image, texture.srgb, EdgedTexels(image, texture.wrapU, texture.wrapV));
+        appendGathered(key, isHalf(texture));
+    return place->second;
+}
+
+uint32_t TexelPacker::firstRowOf(const TextureUse& use, const TextureUse& opacity) {
+    const DetailPlan::EdgedImage key(scene_, use, opacity);
+    const auto [place, isNew] = firstRowOfImage_.try_emplace(key, uint32_t(end_));
+    if (isNew) appendGathered(key, false);
     return place->second;
 }
 
@@ -119,15 +155,29 @@ void TexelPacker::appendPlain(const std::vector<uint32_t>& words) {
             }});
 }
 
-void TexelPacker::appendGathered(const TextureImage& image, bool srgb, EdgedTexels at) {
-    const auto texel = [&image, &color = srgb ? byteTable().linearFractions
-                                              : byteTable().fractions](size_t index) -> TexelWords {
-        if (image.format == TexelFormat::RgbaHalf)
-            return {image.words[2 * index], image.words[2 * index + 1]};
-        const uint32_t w = image.words[index];
-        return {color[byteOf(w, 0)] | color[byteOf(w, 1)] << 16,
-                color[byteOf(w, 2)] | byteTable().fractions[byteOf(w, 3)] << 16};
-    };
+void TexelPacker::appendGathered(const DetailPlan::EdgedImage& edged, bool half) {
+    const TextureImage& image = scene_.images[edged.image];
+    const EdgedTexels at(image, edged.wrapU, edged.wrapV);
+    const Fractions color(image, edged.srgb);
+    if (half)
+        appendLines(image, at, [&image](size_t i) -> TexelWords {
+            return {image.words[2 * i], image.words[2 * i + 1]};
+        });
+    else if (edged.opacityImage == edged.kNone)
+        appendLines(image, at, [color](size_t i) { return color.texel(i); });
+    else
+        appendLines(image, at,
+                    [color,
+                     opacity = Fractions(scene_.images[edged.opacityImage], edged.opacityIsSrgb),
+                     flip = edged.opacityIsNegative ? 0xFFFFu : 0u](size_t i) -> TexelWords {
+                        const TexelWords texel = color.texel(i);
+                        const uint32_t alpha = (opacity.texel(i)[0] & 0xFFFF) ^ flip;
+                        return {texel[0], (texel[1] & 0xFFFF) | alpha << 16};
+                    });
+}
+
+template <class Texel>
+void TexelPacker::appendLines(const TextureImage& image, EdgedTexels at, Texel texel) {
     append({end_, size_t(image.width) + 2, int64_t(image.height) + 1,
             [&image, texel, at = std::move(at)](int64_t y, Row* row) {
                 for (int64_t x = -1; x <= int64_t(image.width); ++x) {

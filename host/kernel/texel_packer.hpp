@@ -21,8 +21,13 @@ class TexelPacker {
 
     /// gpu::TEXELS_PLAIN
     bool isPlain(const Texture& texture) const;
+    /// gpu::TEXELS_HALF
+    bool isHalf(const Texture& texture) const { return plan_.isHalf(scene_, texture); }
 
     uint32_t firstRowOf(const Texture& texture);
+
+    /// Of a picture with the alpha of another texture, which is looked up alike.
+    uint32_t firstRowOf(const TextureUse& use, const TextureUse& opacity);
 
     /// Bundles of the same pictures share their rows. Of no pictures: of one white texel.
     uint32_t firstRowOf(const DetailPlan::Bundle& bundle);
@@ -42,7 +47,9 @@ class TexelPacker {
     };
     void append(Lines lines);
     void appendPlain(const std::vector<uint32_t>& words);
-    void appendGathered(const TextureImage& image, bool srgb, EdgedTexels at);
+    void appendGathered(const DetailPlan::EdgedImage& edged, bool half);
+    template <class Texel>
+    void appendLines(const TextureImage& image, EdgedTexels at, Texel texel);
     void appendBundle(const DetailPlan::EdgedBundle& bundle, EdgedTexels at, uint32_t width,
                       uint32_t height);
     /// The row of a texel of a bundle, as gpu::TEXELS_BUNDLE describes it.

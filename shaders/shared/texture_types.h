@@ -114,7 +114,8 @@ SHARED_CONST uint TEXTURE_SLOT_COUNT = 0u TEXTURE_SLOT_LIST(COUNT_SLOT);
 /// Where there is room for it (host/kernel/detail_plan) a row holds texels that are looked up together, those beyond the
 /// edges included, so that a lookup loads two rows that follow each other and minds no edge: of a picture of w x h
 /// texels row (y + 1) (w + 2) + x + 1 has the texels (x, y) and (x, y + 1), x from -1 to w, y from -1 to h - 1. A texel
-/// is two words: four half floats, or four fractions of 65,535, linear, so that nothing is left to decode.
+/// is two words: four half floats, or four fractions of 65,535, linear, so that nothing is left to decode. Half floats
+/// that fractions hold as exactly become fractions (host/kernel/detail_plan.cpp, areFractions()).
 ///
 /// Else (TEXELS_PLAIN) they lie one after the other, the first word of all in word 0 of firstRow: two words of half
 /// floats, or one of four fractions of 255, sRGB where TEXELS_SRGB is set.

@@ -147,6 +147,85 @@ TEST_F(Bundles, HaveOnlyWhatHasAnEffect) {
 
 /// Textures for which there is no room are in no bundle, and what has none then is stored plainly.
 /// What is shared counts once.
+/// An opacity beside a base colour, both by themselves.
+class Opacities : public testing::Test {
+  protected:
+    Opacities() {
+        const std::vector<uint32_t> opaque(8, 0xFF804020u), halves(16, 0x3C003800u);
+        scene_.images = {
+            {.width = 4, .height = 2, .words = opaque},
+            {.width = 4, .height = 2, .words = opaque},
+            {.width = 4, .height = 2, .format = TexelFormat::RgbaHalf, .words = halves}};
+        scene_.textures = {{.image = 0, .srgb = true}, {.image = 1}};
+        scene_.materials.resize(1);
+        Material& m = scene_.materials[0];
+        m.alphaMode = AlphaMode::Blend;
+        m.textures = {{.slot = TextureSlot::BaseColor, .texture = 0},
+                      {.slot = TextureSlot::Opacity, .texture = 1}};
+    }
+
+    bool areOne(uint64_t rows = kUsualGatheredRows) const {
+        const DetailPlan p = planDetails(scene_, {true}, rows);
+        EXPECT_EQ(p.mostTextures, p.materials[0].opacity ? 1u : 2u);
+        EXPECT_EQ((p.looseSlots & bit(TextureSlot::Opacity)) == 0,
+                  p.materials[0].opacity.has_value());
+        return p.materials[0].opacity.has_value();
+    }
+
+    Scene scene_;
+};
+
+TEST_F(Opacities, AreTheAlphaOfColorsThatAreLookedUpAlike) {
+    EXPECT_TRUE(areOne());
+    EXPECT_FALSE(areOne(0)) << "there is no room";
+    scene_.textures[1].image = 2;
+    EXPECT_TRUE(areOne());
+    scene_.textures[0].image = 2;
+    EXPECT_TRUE(areOne());
+}
+
+TEST_F(Opacities, StayByThemselvesOtherwise) {
+    const Scene same = scene_;
+    const std::function<void()> changes[] = {
+        [&] { scene_.images[0].words[3] = 0x00FFFFFF; },
+        [&] { scene_.textures[1].wrapV = Wrap::Clamp; },
+        [&] { scene_.textures[1].nearest = true; },
+        [&] { std::swap(scene_.images[1].width, scene_.images[1].height); },
+        [&] {
+            scene_.materials[0].textures[1].uRow = {2, 0, 0};
+        },
+        [&] { scene_.materials[0].textures[1].uvSet = 1; },
+    };
+    for (const std::function<void()>& change : changes) {
+        change();
+        EXPECT_FALSE(areOne()) << "change " << &change - changes;
+        scene_ = same;
+    }
+    // Brighter than 1: no fraction.
+    scene_.textures[1].image = 2;
+    scene_.images[2].words[4] = 0x3C004200;
+    EXPECT_FALSE(areOne());
+}
+
+/// From 2^-6 to 1, and 0; alpha from 0 on.
+TEST_F(Opacities, HalfFloatsAreFractionsWhereTheseAreAsExact) {
+    const auto isHalf = [&](uint32_t low, uint32_t high) {
+        scene_.materials[0].textures = {{.slot = TextureSlot::BaseColor, .texture = 0}};
+        scene_.textures[0].image = 2;
+        scene_.images[2].words[6] = low, scene_.images[2].words[7] = high;
+        const DetailPlan p = planDetails(scene_, {true});
+        EXPECT_NE((p.texelKinds & gpu::TEXEL_KIND_HALF) != 0,
+                  (p.texelKinds & gpu::TEXEL_KIND_BYTES) != 0);
+        return (p.texelKinds & gpu::TEXEL_KIND_HALF) != 0;
+    };
+    EXPECT_FALSE(isHalf(0x24003C00, 0x00010000));
+    EXPECT_TRUE(isHalf(0x23FF3C00, 0x3C000000)) << "a green below 2^-6";
+    EXPECT_TRUE(isHalf(0x3C003C01, 0x3C000000)) << "a red above 1";
+    EXPECT_TRUE(isHalf(0, 0x3C00BC00)) << "a blue below 0";
+    EXPECT_TRUE(isHalf(0, 0x3C010000)) << "an alpha above 1";
+    EXPECT_TRUE(isHalf(0x7E00, 0)) << "not a number";
+}
+
 TEST_F(Bundles, StayWithinTheirRoom) {
     scene_.materials.resize(2, scene_.materials[0]); // share a bundle
     scene_.materials.push_back(scene_.materials[0]);

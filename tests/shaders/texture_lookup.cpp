@@ -39,15 +39,20 @@ void TextureLookup::SetUp() {
     std::vector<glm::vec4> texels;
     for (uint32_t i = 0; i < kTextureWidth * kTextureHeight; ++i)
         texels.emplace_back(random.uniform(), random.uniform(), random.uniform(), random.uniform());
+    texels[4].x = 0.004f; // which a half float tells more exactly than a fraction does
+    std::vector<glm::vec4> fractions;
+    for (const glm::vec4& texel : texels)
+        fractions.push_back(glm::max(texel, glm::vec4(0.02f)));
     const uint32_t images[] = {t.bytes(kTextureWidth, kTextureHeight, texels),
-                               t.halves(kTextureWidth, kTextureHeight, texels)};
+                               t.halves(kTextureWidth, kTextureHeight, texels),
+                               t.halves(kTextureWidth, kTextureHeight, fractions)};
     const uint32_t one = t.bytes(1, 1, {texels[0]});
-    for (const uint32_t image : {images[0], images[1], one})
+    for (const uint32_t image : {images[0], images[1], images[2], one})
         for (const Wrap u : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
             for (const Wrap v : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
                 for (const bool nearest : {false, true})
                     for (const bool srgb : {false, true})
-                        if (!srgb || image != images[1])
+                        if (!srgb || (image != images[1] && image != images[2]))
                             t.texture({.image = image,
                                        .wrapU = u,
                                        .wrapV = v,
@@ -69,6 +74,7 @@ void TextureLookup::SetUp() {
     }
     scene_ = b.scene;
     pack();
+    ASSERT_TRUE(packed_.texelKinds & gpu::TEXEL_KIND_HALF);
     const uint32_t kinds = gpu::TEXEL_KIND_PLAIN | gpu::TEXEL_KIND_GATHERED;
     ASSERT_EQ(packed_.texelKinds & kinds,
               GetParam().gathered == Gathered::All    ? gpu::TEXEL_KIND_GATHERED

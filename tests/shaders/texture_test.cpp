@@ -141,6 +141,63 @@ TEST_P(TextureLookup, SrgbIsDecoded) {
     EXPECT_EQ(found.back().color.x, 1);
 }
 
+/// Leaves that are cut out: the alpha of the colours' texels is the red of another picture, or what
+/// is left of it to 1. Where texels are plain there are two textures.
+TEST_P(TextureLookup, HoldsTheOpacityOfAnother) {
+    Random random(17);
+    SceneMaker b;
+    TextureMaker t(b.scene);
+    std::vector<glm::vec4> colors, others;
+    for (uint32_t i = 0; i < kTextureWidth * kTextureHeight; ++i) {
+        colors.emplace_back(random.uniform(), random.uniform(), random.uniform(), 1);
+        others.emplace_back(0.02f + 0.98f * random.uniform(), 1, 1, random.uniform());
+    }
+    const uint32_t color = t.bytes(kTextureWidth, kTextureHeight, colors),
+                   bytes = t.bytes(kTextureWidth, kTextureHeight, others),
+                   halves = t.halves(kTextureWidth, kTextureHeight, others);
+    for (const uint32_t other : {bytes, halves})
+        for (const bool srgb : {false, true})
+            for (const float scale : {1.0f, -1.0f}) {
+                Texture texture{.image = color, .wrapU = Wrap::Mirror, .srgb = true};
+                Material m;
+                m.alphaMode = AlphaMode::Blend;
+                m.textures.push_back({.texture = t.texture(texture)});
+                texture.image = other, texture.srgb = srgb;
+                m.textures.push_back(
+                    {.slot = TextureSlot::Opacity, .texture = t.texture(texture), .scale = scale});
+                b.triangle({0, 0, scale}, {1, 0, float(srgb)}, {0, 1, float(other)}, b.add(m));
+                t.attributes(1, [](const glm::vec3&) { return VertexAttributes{}; });
+            }
+    scene_ = b.scene;
+    pack();
+    const bool isHeld = GetParam().gathered != Gathered::None;
+    EXPECT_EQ(packed_.looseSlots,
+              1u << gpu::TEXTURE_BASE_COLOR | (isHeld ? 0u : 1u << gpu::TEXTURE_OPACITY));
+    EXPECT_EQ(packed_.mostTextures, isHeld ? 1u : 2u);
+    std::vector<TextureQuery> queries;
+    std::vector<size_t> materials;
+    for (size_t i = 0; i < packed_.primitives.size(); ++i)
+        for (int k = 0; k < 16; ++k) {
+            const uint32_t row = materialOf(packed_.primitives[i]) + gpu::MATERIAL_DETAIL_ROW + 1;
+            const float u = 4 * random.uniform() - 2, v = 4 * random.uniform() - 2;
+            queries.push_back({row, u, v, 0});
+            if (!isHeld) queries.push_back({row + gpu::TEXTURE_USE_ROWS, u, v, 0});
+            materials.push_back(scene_.triangles[packed_.bvh.primitiveOrder[i]].material);
+        }
+    const std::vector<TextureAnswer> found = ask(queries);
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const TextureQuery& q = queries[isHeld ? i : 2 * i];
+        const std::vector<TextureUse>& uses = scene_.materials[materials[i]].textures;
+        const glm::dvec4 right = expected(uses[0], q.u, q.v);
+        const double red = expected(uses[1], q.u, q.v).x,
+                     opacity = isHeld && uses[1].scale < 0 ? 1 - red : red,
+                     alpha = isHeld ? found[i].alpha : found[2 * i + 1].color.x;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[isHeld ? i : 2 * i].color[c], right[c], 1e-5 + 1.2e-4 * right[c]);
+        EXPECT_NEAR(alpha, opacity, 1e-5 + 1.2e-4 * opacity) << "material " << materials[i];
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Fetch, TextureLookup,
                          testing::Values(TextureStorage{true, Gathered::All},
                                          TextureStorage{false, Gathered::All},
