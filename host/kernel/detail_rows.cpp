@@ -153,6 +153,7 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
         detail.flags = m.alphaMode == AlphaMode::Mask ? gpu::DETAIL_MASK : gpu::DETAIL_BLEND;
     if (plan.isHidden) detail.flags |= gpu::DETAIL_IS_HIDDEN;
     std::vector<Row> uses;
+    if (m.mirrorsReliefBehind) detail.flags |= gpu::DETAIL_MIRRORS_RELIEF;
     if (plan.coatHasNormal) detail.flags |= gpu::DETAIL_COAT_HAS_NORMAL;
     uint32_t number = 0, shareTexture = 0;
     if (plan.bundle)

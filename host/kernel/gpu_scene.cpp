@@ -92,7 +92,8 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
         g.closures.add(closureBits(scene.materials[i]));
         g.hasEmission |= scene.materials[i].emits();
         g.hasBlackBacks |= scene.materials[i].isBlackBehind;
-        g.hasReliefRules |= reliefBits(scene.materials[i]) != 0;
+        g.hasReliefRules |=
+            reliefBits(scene.materials[i]) != 0 || scene.materials[i].mirrorsReliefBehind;
         g.hasDispersion |= isDispersive(scene.materials[i]);
         g.hasIridescence |= isIridescent(scene.materials[i]);
     }

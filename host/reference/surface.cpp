@@ -113,6 +113,7 @@ bool isSeenFromBehind(const SurfacePoint& s) {
 }
 
 void faceForward(SurfacePoint& s, const ShadingConventions& conventions) {
+    s.isFromBehind = isSeenFromBehind(s);
     if (!conventions.facesForward) {
         s.lift = 0;
         s.unmapped = s.shading;

@@ -37,6 +37,7 @@ struct SurfacePoint {
     };
     std::vector<Part> others;
     double share = 1;
+    bool isFromBehind = false; ///< isSeenFromBehind() before faceForward()
     /// Unit, perpendicular to the shading normal, along which u grows; w: the bitangent is
     /// w (shading normal x tangent), 0: there is none.
     glm::dvec4 tangent{0.0};

@@ -160,6 +160,11 @@ void settleNormal(SurfacePoint& s, const glm::dvec3& mapped, bool bends,
     }
 }
 
+/// By what heights and the tilt of mapped normals are multiplied.
+double reliefScale(const SurfacePoint& s, const TextureUse& map) {
+    return s.material->mirrorsReliefBehind && s.isFromBehind ? -map.scale : map.scale;
+}
+
 /// Raises the surface by heights over the texture coordinates u and v (Blinn 1978): its derivatives
 /// along them, made perpendicular to the shading normal n, get n times the height's. How n itself
 /// changes along them is left out, as usual.
@@ -178,7 +183,7 @@ void applyHeights(SurfacePoint& s, const Scene& scene, const TextureUse& map,
     // Seen from behind, a bump is a dent.
     const bool isTurned = conventions.facesForward && !s.outside;
     const glm::dvec2 slope =
-        (isTurned ? -1.0 : 1.0) * double(map.scale) * slopeOf(scene, map, attributesOf(s, scene));
+        (isTurned ? -1.0 : 1.0) * reliefScale(s, map) * slopeOf(scene, map, attributesOf(s, scene));
     if (slope == glm::dvec2(0.0)) return;
     const glm::dvec3& n = s.shading;
     const glm::dvec3 alongU = byUv[0] + (slope.x - glm::dot(n, byUv[0])) * n;
@@ -193,10 +198,10 @@ void applyHeights(SurfacePoint& s, const Scene& scene, const TextureUse& map,
 
 /// What a map makes of the shading normal, unit; nothing where it leaves it alone.
 std::optional<glm::dvec3> mappedNormal(const SurfacePoint& s, const Scene& scene,
-                                       const TextureUse& map, const glm::dvec4& tangent,
-                                       bool isTurned) {
+                                       const TextureUse& map, double scale,
+                                       const glm::dvec4& tangent, bool isTurned) {
     const glm::dvec3 texel(lookUp(scene, map, attributesOf(s, scene)));
-    const glm::dvec2 tilt = (2.0 * glm::dvec2(texel) - 1.0) * double(map.scale);
+    const glm::dvec2 tilt = (2.0 * glm::dvec2(texel) - 1.0) * scale;
     if (tilt == glm::dvec2(0.0)) return std::nullopt;
     const glm::dvec3 t(tangent), b = tangent.w * glm::cross(s.shading, t);
     // The map is that of the front; from behind, its vector is turned round as the normal is.
@@ -285,7 +290,8 @@ void findCoatNormal(SurfacePoint& s, const Scene& scene, const ShadingConvention
     unmapped.shading = s.unmapped;
     const glm::dvec4 tangent = tangentOf(unmapped, scene, *s.material, isTurned);
     if (tangent.w == 0) return;
-    const std::optional<glm::dvec3> n = mappedNormal(unmapped, scene, *map, tangent, isTurned);
+    const std::optional<glm::dvec3> n =
+        mappedNormal(unmapped, scene, *map, map->scale, tangent, isTurned);
     if (n) s.coat = bendNormal(*n, s.geometric, s.wo);
 }
 
@@ -299,7 +305,8 @@ void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConvention
     const bool isTurned = conventions.facesForward && !s.outside;
     s.tangent = tangentOf(s, scene, *s.material, isTurned);
     if (!map || s.tangent.w == 0) return;
-    const std::optional<glm::dvec3> n = mappedNormal(s, scene, *map, s.tangent, isTurned);
+    const std::optional<glm::dvec3> n =
+        mappedNormal(s, scene, *map, reliefScale(s, *map), s.tangent, isTurned);
     if (!n) return;
     settleNormal(s, *n, true, conventions);
     s.tangent = tangentOf(s, scene, *s.material, isTurned);

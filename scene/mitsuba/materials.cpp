@@ -52,10 +52,7 @@ Surface Materials::make(const Plugin& shape, const Plugin* bsdf, const Plugin* e
         surface.material.alphaMode = AlphaMode::Blend;
         surface.material.opacity = 0;
     }
-    if (bsdf) {
-        surface = readBsdf(context_, textures_, *bsdf);
-        addBackOfRelief(*bsdf, surface);
-    }
+    if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
     settleColors(surface);
     surround(surface, sidesOf(shape));
     if (emitter)

@@ -32,8 +32,7 @@ bool hasRelief(const Surface& surface) {
     return false;
 }
 
-/// Mitsuba turns directions behind a surface to its front by their cosine alone: from there a
-/// relief is seen in a mirror, and what stands out does so on both sides.
+/// For the back of a two-sided surface that has a bsdf of its own: its relief stands out there.
 void mirrorRelief(Surface& surface) {
     for (Surface* each = &surface; each; each = each->other.get())
         for (TextureUse& use : each->material.textures)
@@ -203,25 +202,13 @@ Surface twoSided(Context& context, Textures& textures, const Plugin& plugin) {
     Surface surface = readBsdf(context, textures, *inside.front());
     if (inside.back() != inside.front())
         surface = withBack(plugin, std::move(surface), readBsdf(context, textures, *inside.back()));
-    for (Surface* each = &surface; each; each = each->other.get())
+    // Mitsuba turns directions behind a surface to its front by their cosine alone.
+    const bool mirrors = inside.back() == inside.front() && hasRelief(surface);
+    for (Surface* each = &surface; each; each = each->other.get()) {
         each->material.isBlackBehind = false;
+        each->material.mirrorsReliefBehind = mirrors;
+    }
     return surface;
-}
-
-void addBackOfRelief(const Plugin& plugin, Surface& surface) {
-    const std::vector<const Plugin*> inside = plugin.childrenOf("bsdf");
-    if (plugin.type == "mask" && !inside.empty()) return addBackOfRelief(*inside.front(), surface);
-    if (plugin.type != "twosided" || surface.other || !hasRelief(surface)) return;
-    // Of both the first one says how often something is there.
-    Surface back = surface;
-    back.material.alphaMode = AlphaMode::Opaque;
-    back.material.opacity = 1;
-    std::erase_if(back.material.textures,
-                  [](const TextureUse& use) { return use.slot == TextureSlot::Opacity; });
-    mirrorRelief(back);
-    surface.material.otherPlace = OtherPlace::Behind;
-    surface.material.otherShare = 1;
-    surface.other = std::make_shared<Surface>(std::move(back));
 }
 
 Surface mask(Context& context, Textures& textures, const Plugin& plugin) {

@@ -18,9 +18,6 @@ Surface mixed(const Plugin& plugin, Surface first, Surface second, double weight
 
 /// The back is the front's mirror image, or a bsdf of its own.
 Surface twoSided(Context& context, Textures& textures, const Plugin& plugin);
-/// The back of what `plugin` has made of a two-sided BSDF, where it has a relief and is no mixture:
-/// one that is seen in a mirror. The outermost BSDF of a shape is to be handed over.
-void addBackOfRelief(const Plugin& plugin, Surface& surface);
 Surface mask(Context& context, Textures& textures, const Plugin& plugin);
 Surface normalMap(Context& context, Textures& textures, const Plugin& plugin);
 Surface bumpMap(Context& context, Textures& textures, const Plugin& plugin);

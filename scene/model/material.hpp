@@ -178,6 +178,9 @@ struct Material {
     /// The border of a volume that may overlap others, whose media are the first of the scene:
     /// outside of it is what else the place is in, of several the last one, and else `outside`.
     bool outsideIsOpen = false;
+    /// Behind the surface heights and maps of normals are seen in a mirror: what stands out in
+    /// front does so there, too. Else a bump is a dent from behind.
+    bool mirrorsReliefBehind = false;
     /// At most one for each slot, but of MetallicRoughness, Emission and SpecularColor, whose
     /// numbers multiply.
     std::vector<TextureUse> textures;
@@ -226,8 +229,8 @@ inline auto laterMembers(const Material& m) {
                                   principled, burley, alphaMode, opacity, alphaCutoff, other,
                                   otherShare, otherPlace, isHiddenFromCamera, isBlackBehind,
                                   reliefRule, reliefShadows, boundsMedia, inside, outside,
-                                  outsideIsOpen, textures] = m;
-    return std::tie(m.boundsMedia, m.inside, m.outside, m.outsideIsOpen);
+                                  outsideIsOpen, mirrorsReliefBehind, textures] = m;
+    return std::tie(m.boundsMedia, m.inside, m.outside, m.outsideIsOpen, m.mirrorsReliefBehind);
 }
 
 /// Below these, floats cannot tell microfacets from a plane (shaders/shared/bsdf_types.h has the

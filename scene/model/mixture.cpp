@@ -27,7 +27,7 @@ bool boundsVolume(const Material& m) {
 bool haveOneNormal(const Material& a, const Material& b) {
     const TextureUse* heights = textureIn(a, TextureSlot::Height);
     return a.reliefRule == b.reliefRule && a.reliefShadows == b.reliefShadows &&
-           a.isBlackBehind == b.isBlackBehind &&
+           a.isBlackBehind == b.isBlackBehind && a.mirrorsReliefBehind == b.mirrorsReliefBehind &&
            sameUse(heights, textureIn(b, TextureSlot::Height)) &&
            sameUse(textureIn(a, TextureSlot::Normal), textureIn(b, TextureSlot::Normal)) &&
            (!heights || (a.kind == MaterialKind::Diffuse) == (b.kind == MaterialKind::Diffuse));

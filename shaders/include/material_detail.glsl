@@ -121,7 +121,13 @@ struct MaterialPoint {
 struct Relief {
     vec3 mapped; ///< a normal map's vector in the frame of the surface's tangent; (0, 0, 1) without one
     vec2 slope;  ///< of heights, along the texture coordinates
+    bool mirrorsBehind; ///< from behind both are seen in a mirror; with RELIEF_RULES
 };
+
+void mirror(inout Relief relief) {
+    relief.mapped.xy = -relief.mapped.xy;
+    relief.slope = -relief.slope;
+}
 
 /// What a material is at a point.
 struct MaterialAtPoint {
@@ -254,12 +260,13 @@ void applyLooseTextures(inout MaterialAtPoint at, uint materialRow, uint count, 
 
 MaterialAtPoint lookUpMaterial(MaterialPoint p) {
     MaterialAtPoint at =
-        MaterialAtPoint(fetchMaterial(p.material), Relief(vec3(0.0, 0.0, 1.0), vec2(0.0)), vec3(1.0), 1.0);
+        MaterialAtPoint(fetchMaterial(p.material), Relief(vec3(0.0, 0.0, 1.0), vec2(0.0), false), vec3(1.0), 1.0);
     const PointAttributes a = attributesOf(p);
     if (hasAttribute(ATTRIBUTE_COLOR)) multiplyBaseColor(at.parameters, a.color.rgb);
     if (!hasDetails()) return at;
     const MaterialDetail detail = fetchDetail(p.material);
     at.opacity = detail.opacity * a.color.a;
+    if (RELIEF_RULES) at.relief.mirrorsBehind = (detail.flags & DETAIL_MIRRORS_RELIEF) != 0u;
     if (hasBundles()) applyBundle(at, p.material, a);
     if (LOOSE_SLOTS != 0u) applyLooseTextures(at, p.material, looseTexturesOf(detail), a);
     at.opacity = countedOpacity(detail, at.opacity);

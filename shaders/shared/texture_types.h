@@ -31,6 +31,8 @@ SHARED_CONST uint DETAIL_IS_HIDDEN = 32u; ///< camera rays pass it
 SHARED_CONST uint DETAIL_COAT_HAS_NORMAL = 64u;
 SHARED_CONST uint DETAIL_LOOSE_MASK = 0xFFu;
 SHARED_CONST uint DETAIL_COAT_NORMAL_SHIFT = 8u; ///< in looseTextures
+/// From behind, heights and maps of normals are seen in a mirror.
+SHARED_CONST uint DETAIL_MIRRORS_RELIEF = 128u;
 /// It is a mixture: the row behind its textures is a BlendRow.
 SHARED_CONST uint DETAIL_IS_BLEND = 16u;
 

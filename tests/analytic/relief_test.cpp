@@ -18,13 +18,13 @@ struct Mapped {
     float scale = 1;
     bool smooth = false;
     ReliefRule rule = ReliefRule::Bend;
-    bool shadows = false;
+    bool shadows = false, mirrorsBehind = false;
 
     SceneMaker square() const {
         SceneMaker b;
         TextureMaker t(b.scene);
         Material m = diffuse(0.5f);
-        m.reliefRule = rule, m.reliefShadows = shadows;
+        m.reliefRule = rule, m.reliefShadows = shadows, m.mirrorsReliefBehind = mirrorsBehind;
         m.textures.push_back({.slot = TextureSlot::Normal,
                               .texture = t.constant(glm::vec4(0.5f * mapped + 0.5f, 1)),
                               .scale = scale});
@@ -105,6 +105,23 @@ TEST(NormalMaps, TurnRoundOnTheOtherSide) {
         EXPECT_NEAR((Mapped{.tangent = {1, 0, 0, side}, .mapped = mapped}.cosine(below, -2)),
                     glm::dot(below, -front), kMapError);
     }
+}
+
+/// Mitsuba's two-sided surfaces look behind as they do in front, in a mirror.
+TEST(NormalMaps, AreSeenInAMirrorBehindWhereTheMaterialSaysSo) {
+    const glm::vec3 below(kLeaning.x, kLeaning.y, -kLeaning.z);
+    for (const bool smooth : {false, true})
+        for (const float side : {1.0f, -1.0f}) {
+            const glm::vec3 mapped = glm::normalize(glm::vec3(0.3f, 0.4f, 0.8f));
+            const Mapped square{.tangent = {1, 0, 0, side},
+                                .mapped = mapped,
+                                .smooth = smooth,
+                                .rule = ReliefRule::Flip,
+                                .mirrorsBehind = true};
+            const float front = glm::dot(kLeaning, glm::vec3(mapped.x, side * mapped.y, mapped.z));
+            EXPECT_NEAR(square.cosine(kLeaning), front, kMapError);
+            EXPECT_NEAR(square.cosine(below, -2), front, kMapError);
+        }
 }
 
 /// A normal that leans away from the camera so far that what it mirrors is below the surface is
@@ -215,11 +232,13 @@ struct Raised {
     Wrap wrap = Wrap::Clamp;
     bool nearest = false;
     glm::vec3 normal{0, 0, 1}; ///< of the corners
+    bool mirrorsBehind = false;
 
     double cosine(const glm::vec3& light, double cameraHeight = 2) const {
         SceneMaker b;
         TextureMaker t(b.scene);
         Material m = diffuse(0.5f);
+        m.mirrorsReliefBehind = mirrorsBehind;
         const auto grey = [](float x) { return glm::vec4(glm::vec3(x), 1); };
         const uint32_t image = t.bytes(2, 2, {grey(0), grey(0.4f), grey(0.2f), grey(0.6f)});
         m.textures.push_back(
@@ -291,6 +310,14 @@ TEST(Heights, TurnRoundOnTheOtherSide) {
     const glm::dvec3 below(kLeaning.x, kLeaning.y, -kLeaning.z);
     EXPECT_NEAR((Raised{}.cosine(glm::vec3(below), -2)),
                 glm::dot(below, -glm::normalize(glm::dvec3(-0.8, 0.4, 1))), kHeightError);
+}
+
+TEST(Heights, StandOutBehindWhereTheMaterialSaysSo) {
+    const glm::vec3 below(kLeaning.x, kLeaning.y, -kLeaning.z);
+    const Raised square{.mirrorsBehind = true};
+    const double front = glm::dot(glm::dvec3(kLeaning), glm::normalize(glm::dvec3(-0.8, 0.4, 1)));
+    EXPECT_NEAR(square.cosine(kLeaning), front, kHeightError);
+    EXPECT_NEAR(square.cosine(below, -2), front, kHeightError);
 }
 
 /// Along normals that are not the plane's: the plane's derivatives, made perpendicular to the

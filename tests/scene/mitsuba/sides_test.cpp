@@ -67,7 +67,8 @@ TEST(MitsubaSides, FramesOfNormalMapsAreRightHanded) {
     }
 }
 
-/// The scales of the reliefs that a surface and its back have, by turns.
+/// The scales of the reliefs that a surface and its back have, by turns: where it has no other
+/// material behind, its own, which may be seen in a mirror.
 std::vector<float> reliefsOf(const std::string& bsdf) {
     const Scene scene = loadInside(rectangleOf(bsdf));
     EXPECT_TRUE(scene.report.forgiven.empty());
@@ -76,8 +77,10 @@ std::vector<float> reliefsOf(const std::string& bsdf) {
     for (int side = 0; side < 2 && number != kNoMaterial; ++side) {
         const Material& m = scene.materials.at(number);
         for (const TextureUse& use : m.textures)
-            if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::Height)
+            if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::Height) {
                 scales.push_back(use.scale);
+                if (m.mirrorsReliefBehind) scales.push_back(-use.scale);
+            }
         EXPECT_EQ(m.otherPlace == OtherPlace::Behind, m.other != kNoMaterial);
         number = m.other;
     }
@@ -104,6 +107,10 @@ TEST(MitsubaSides, ReliefsAreMirroredBehind) {
                           twoSided(bumps) + "</bsdf>"),
                 ElementsAre(0.5f, -0.5f));
     EXPECT_THAT(reliefsOf(twoSided("<bsdf type=\"diffuse\"/>")), ElementsAre());
+    const Scene mixed = loadInside(rectangleOf(
+        twoSided("<bsdf type=\"blendbsdf\">" + bumps + "<bsdf type=\"diffuse\"/></bsdf>")));
+    for (const Material& m : mixed.materials)
+        EXPECT_TRUE(m.mirrorsReliefBehind) << "a mixture with relief is mirrored, too";
 }
 
 } // namespace
