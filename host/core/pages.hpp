@@ -22,11 +22,11 @@ constexpr std::size_t wholePages(std::size_t bytes) {
 /// has no such pages.
 void preferHugePages(std::span<std::byte> memory);
 
-/// The same for memory that all will be written to, as long as the system gives such pages at once:
-/// it takes them now, and small ones behind the rest after one that took longer than 512 small ones
-/// (secondsOfASmallPage()). In a virtual machine that has given its free memory back a page of
-/// 2 MiB may take thirty times as long as one that is there, and small ones come from what has not
-/// been given back. Bytes in pages that are taken have any value.
+/// Takes pages of 2 MiB for memory that all of will be written to, as long as the system has some
+/// at hand: after one that took longer than 512 small ones (secondsOfASmallPage()) the rest gets
+/// small ones. In a virtual machine that has given its free memory back a page of 2 MiB may take
+/// thirty times as long as one that is there, and small ones come from what has not been given
+/// back. Bytes in pages that are taken have any value.
 void takeHugePages(std::span<std::byte> memory);
 
 /// CPU seconds that the system takes to give a page of 4 KiB: the mean of 64, measured once.

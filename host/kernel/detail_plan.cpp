@@ -70,8 +70,9 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     return false;
 }
 
+constexpr uint32_t kOne = 0x3C00; // as a half float
+
 bool isOpaque(const TextureImage& image) {
-    constexpr uint32_t kOne = 0x3C00; // as a half float
     if (image.format == TexelFormat::Rgba8)
         return std::ranges::all_of(image.words, [](uint32_t w) { return w >> 24 == 0xFF; });
     for (size_t i = 1; i < image.words.size(); i += 2)
@@ -83,7 +84,7 @@ bool isOpaque(const TextureImage& image) {
 /// at most that of a half float from 2^-6 on. Of smaller ones only alpha counts by its difference,
 /// 2^-17 here, and not by its ratio.
 bool areFractions(const TextureImage& image) {
-    constexpr uint32_t kLeast = 0x2400, kOne = 0x3C00; // 2^-6 and 1 as half floats
+    constexpr uint32_t kLeast = 0x2400; // 2^-6
     const auto isColor = [](uint32_t half) {
         return half == 0 || (half >= kLeast && half <= kOne);
     };
@@ -94,6 +95,14 @@ bool areFractions(const TextureImage& image) {
             high >> 16 > kOne)
             return false;
     }
+    return true;
+}
+
+/// Whether fractions hold a picture's opacities, which are red.
+bool hasFractionsOfOpacity(const TextureImage& image) {
+    if (image.format != TexelFormat::RgbaHalf) return true;
+    for (size_t i = 0; i < image.words.size(); i += 2)
+        if ((image.words[i] & 0xFFFF) > kOne) return false;
     return true;
 }
 
@@ -111,6 +120,9 @@ class Planner {
 
     DetailPlan plan(const std::vector<bool>& used) {
         plan_.materials.resize(scene_.materials.size());
+        for (size_t i = 0; i < scene_.materials.size(); ++i)
+            if (used[i] && scene_.materials[i].alphaMode == AlphaMode::Mask)
+                noteCutOut(scene_.materials[i]);
         for (size_t i = 0; i < scene_.materials.size(); ++i)
             if (used[i]) add(scene_.materials[i], plan_.materials[i]);
         for (const Light& light : scene_.lights)
@@ -175,7 +187,7 @@ class Planner {
         const DetailPlan::EdgedImage edged(scene_, texture);
         if (!gathered_.contains(edged) && !plan_.plainImages.contains(edged)) {
             (takeRows(edgedTexels(texture, 1)) ? gathered_ : plan_.plainImages).insert(edged);
-            if (areFractions(imageOf(use))) plan_.fractionImages.insert(texture.image);
+            if (mayBeFractions(use)) plan_.fractionImages.insert(texture.image);
         }
         const bool isPlain = plan_.plainImages.contains(edged);
         const bool isHalf = plan_.isHalf(scene_, texture);
@@ -229,14 +241,29 @@ class Planner {
         const auto opacity = std::ranges::find(textures, TextureSlot::Opacity, &TextureUse::slot);
         if (color == textures.end() || opacity == textures.end()) return;
         if (!areLookedUpAlike(*color, *opacity) || !isOpaque(imageOf(*color))) return;
-        for (const TextureUse& use : {*color, *opacity})
-            if (imageOf(use).format == TexelFormat::RgbaHalf && !areFractions(imageOf(use))) return;
+        if (isCutOut(*opacity) || !hasFractionsOfOpacity(imageOf(*opacity))) return;
+        if (imageOf(*color).format == TexelFormat::RgbaHalf && !areFractions(imageOf(*color)))
+            return;
         const DetailPlan::EdgedImage key(scene_, *color, *opacity);
         if (!gathered_.contains(key) && !takeRows(edgedTexels(scene_.textures[color->texture], 1)))
             return;
         gathered_.insert(key);
         material.opacity = *opacity;
         textures.erase(opacity);
+    }
+
+    /// A mask compares opacities with its cutoff, which may be one of them: half floats stay.
+    void noteCutOut(const Material& m) {
+        for (const TextureUse& use : m.textures)
+            if (use.slot == TextureSlot::BaseColor || use.slot == TextureSlot::Opacity)
+                cutOut_.insert(scene_.textures[use.texture].image);
+    }
+    bool isCutOut(const TextureUse& use) const {
+        return imageOf(use).format == TexelFormat::RgbaHalf &&
+               cutOut_.contains(scene_.textures[use.texture].image);
+    }
+    bool mayBeFractions(const TextureUse& use) const {
+        return !isCutOut(use) && areFractions(imageOf(use));
     }
 
     bool isBundled(const TextureUse& use) const {
@@ -298,7 +325,8 @@ class Planner {
     const Scene& scene_;
     uint32_t fewestMaps_;
     bool hasColors_ = false, hasTransparentColors_ = false;
-    uint64_t rowsLeft_; ///< for textures that are not stored plainly
+    uint64_t rowsLeft_;         ///< for textures that are not stored plainly
+    std::set<uint32_t> cutOut_; ///< pictures of opacities of masks
     std::set<DetailPlan::EdgedImage> gathered_;
     std::set<DetailPlan::EdgedBundle> bundles_;
     DetailPlan plan_;

@@ -45,7 +45,7 @@ struct GpuScene {
     bool hasBlends = false;                  ///< a primitive's material is a mixture
     uint32_t mostOthers = 0, mostBlends = 0; ///< of MaterialRows
     bool hasBlackBacks = false;              ///< a primitive's material is black behind
-    bool hasReliefRules = false;             ///< a primitive's material has MATERIAL_RELIEF_ bits
+    bool hasReliefRules = false;             ///< MATERIAL_RELIEF_ or DETAIL_MIRRORS_RELIEF bits
     bool hasDispersion = false;              ///< a primitive's material refracts by colour
     bool hasIridescence = false;             ///< a primitive's material has a thin film
     uint32_t media = 0;                      ///< MEDIA_ bits

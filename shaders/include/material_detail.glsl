@@ -124,9 +124,12 @@ struct Relief {
     bool mirrorsBehind; ///< from behind both are seen in a mirror; with RELIEF_RULES
 };
 
-void mirror(inout Relief relief) {
-    relief.mapped.xy = -relief.mapped.xy;
-    relief.slope = -relief.slope;
+/// s: not yet faced forward.
+void mirrorBehind(inout Relief relief, SurfacePoint s) {
+    if (relief.mirrorsBehind && isSeenFromBehind(s)) {
+        relief.mapped.xy = -relief.mapped.xy;
+        relief.slope = -relief.slope;
+    }
 }
 
 /// What a material is at a point.

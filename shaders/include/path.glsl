@@ -130,9 +130,7 @@ void arrive(const Given given, inout PathState path) {
     if (LIGHT_THROUGH_GLASS && !isGlass) path.glass.isFromLit = false;
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
     if (!inMedium) {
-        if (RELIEF_RULES) {
-            if (path.found.relief.mirrorsBehind && isSeenFromBehind(path.surface)) mirror(path.found.relief);
-        }
+        if (RELIEF_RULES) mirrorBehind(path.found.relief, path.surface);
         faceForward(path.surface);
         applyRelief(path.surface, path.found.relief, dependsOnView(path.material), reliefRules(path.material));
     }

@@ -84,7 +84,7 @@
       "tangents", flag, "frames of BSDFs that follow the surface's tangent") \
     F(44, bool, RELIEF_RULES, false, shades && scene.hasReliefRules, own, \
       "rules of relief", flag, \
-        "materials with rules of their own for shading normals that turn away (MATERIAL_RELIEF_ bits)") \
+        "materials with rules of their own for relief (MATERIAL_RELIEF_ bits, DETAIL_MIRRORS_RELIEF)") \
     F(7, bool, HAS_EMISSION, true, shades && scene.hasEmission, 1, \
       "emission", flag, "surfaces that shine") \
     F(9, uint, INTEGRATOR, INTEGRATOR_PATH, integratorConstant(settings.integrator), own, \

@@ -41,10 +41,5 @@ TEST(Pages, OfAnArrayKeepWhatIsWritten) {
         ASSERT_EQ(numbers[i], int(i));
 }
 
-TEST(Pages, TakeTime) {
-    EXPECT_GT(secondsOfASmallPage(), 0);
-    EXPECT_EQ(secondsOfASmallPage(), secondsOfASmallPage()) << "it is measured once";
-}
-
 } // namespace
 } // namespace stromboli

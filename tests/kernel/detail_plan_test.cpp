@@ -145,8 +145,6 @@ TEST_F(Bundles, HaveOnlyWhatHasAnEffect) {
     EXPECT_EQ(plan().looseSlots, bit(TextureSlot::Normal));
 }
 
-/// Textures for which there is no room are in no bundle, and what has none then is stored plainly.
-/// What is shared counts once.
 /// An opacity beside a base colour, both by themselves.
 class Opacities : public testing::Test {
   protected:
@@ -207,6 +205,35 @@ TEST_F(Opacities, StayByThemselvesOtherwise) {
     EXPECT_FALSE(areOne());
 }
 
+/// Of an opacity red alone counts, and by its difference: edges of leaves are nearly transparent.
+TEST_F(Opacities, AreOfAnyRedUpToOne) {
+    scene_.textures[1].image = 2;
+    for (const uint32_t low : {0x42000001u, 0x00003C00u, 0x7E000000u}) {
+        scene_.images[2].words[4] = low;
+        EXPECT_TRUE(areOne()) << low;
+    }
+    scene_.images[2].words[4] = 0x3C01;
+    EXPECT_FALSE(areOne());
+}
+
+/// Where opacity is compared with a cutoff it is that of the picture, exactly: 0.75 is no fraction.
+TEST_F(Opacities, OfMasksStayHalfFloats) {
+    Material& m = scene_.materials[0];
+    const auto isHalf = [&] {
+        return (planDetails(scene_, {true}).texelKinds & gpu::TEXEL_KIND_HALF) != 0;
+    };
+    EXPECT_TRUE(areOne());
+    m.alphaMode = AlphaMode::Mask;
+    EXPECT_TRUE(areOne()) << "bytes are fractions exactly";
+    scene_.textures[1].image = 2;
+    EXPECT_FALSE(areOne());
+    EXPECT_TRUE(isHalf());
+    m.textures = {{.slot = TextureSlot::BaseColor, .texture = 1}};
+    EXPECT_TRUE(isHalf()) << "the alpha of a colour";
+    m.alphaMode = AlphaMode::Blend;
+    EXPECT_FALSE(isHalf());
+}
+
 /// From 2^-6 to 1, and 0; alpha from 0 on.
 TEST_F(Opacities, HalfFloatsAreFractionsWhereTheseAreAsExact) {
     const auto isHalf = [&](uint32_t low, uint32_t high) {
@@ -226,6 +253,8 @@ TEST_F(Opacities, HalfFloatsAreFractionsWhereTheseAreAsExact) {
     EXPECT_TRUE(isHalf(0x7E00, 0)) << "not a number";
 }
 
+/// Textures for which there is no room are in no bundle, and what has none then is stored plainly.
+/// What is shared counts once.
 TEST_F(Bundles, StayWithinTheirRoom) {
     scene_.materials.resize(2, scene_.materials[0]); // share a bundle
     scene_.materials.push_back(scene_.materials[0]);
