@@ -4,6 +4,7 @@
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
 #include "host/kernel/arriving_light.hpp"
+#include "host/kernel/cast_shadows.hpp"
 #include "host/kernel/feelers.hpp"
 #include "host/kernel/find_occluders.hpp"
 #include "host/kernel/find_portals.hpp"
@@ -156,6 +157,7 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
     const auto decideAs = [&](const auto& first) {
         built.gpu.ofRay = first.ofRay;
         built.gpu.looksAtOccluders = first.looksAtOccluders;
+        built.gpu.looksAtShadowMap = first.looksAtShadowMap;
     };
     if (kept) decideAs(*kept);
     if (before) decideAs(*before);
@@ -173,6 +175,16 @@ void lookForOccluders(GpuScene& built, const Scene& scene, const Camera& camera)
         built.looksAtOccluders = !built.occluders.all.empty();
     } else if (*built.looksAtOccluders) {
         built.occluders = findOccluders(scene, built, camera);
+    }
+}
+
+void lookForShadows(GpuScene& built, const Scene& scene, const Camera& camera) {
+    if (!built.ofRay.isKnown()) return;
+    if (!built.looksAtShadowMap) {
+        built.shadowMap = shadowsThatPay(scene, built, camera);
+        built.looksAtShadowMap = built.shadowMap.has_value();
+    } else if (*built.looksAtShadowMap) {
+        built.shadowMap = castShadows(scene, built, camera);
     }
 }
 
@@ -198,6 +210,8 @@ std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Ca
         built.guide = guideThatPays(scene, built, camera, goThroughGlass);
     built.occluders = {};
     if (mayLookAtOccluders(built, estimator)) lookForOccluders(built, scene, camera);
+    built.shadowMap.reset();
+    if (mayLookAtShadowMap(built, estimator)) lookForShadows(built, scene, camera);
     if (!built.lights.weighed) return {};
     HowLightsArePicked how{built.lights.weighed->plain, {}};
     if (samplesLights(estimator.directLight) && estimator.integrator == Integrator::Path)

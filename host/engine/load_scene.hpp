@@ -90,6 +90,7 @@ struct KeptParts {
     uint32_t environmentIdentity = 0;     ///< environmentIdentity() of what it was made from
     VisitsOfRay ofRay;                    ///< GpuScene::ofRay of the first moment
     std::optional<bool> looksAtOccluders; ///< likewise
+    std::optional<bool> looksAtShadowMap; ///< likewise
 };
 
 /// kept: where the scene is a moment of a sequence. gatheredRows, before: as packScene() has them.
@@ -102,8 +103,8 @@ BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const List
 /// none where light samples go to no sky, or shall aim at none. GpuScene::ofRay, unless it
 /// is known: pictures of other cameras keep it, and the kernel with it. GpuScene::guide: where
 /// light samples may be guided and that pays (guideThatPays()). GpuScene::lights: picked by how
-/// much of their light arrives (howToPick()). GpuScene::occluders: where they pay in the first
-/// picture. Returns the bindings whose contents have changed.
+/// much of their light arrives (howToPick()). GpuScene::occluders and shadowMap: where they
+/// pay in the first picture. Returns the bindings whose contents have changed.
 std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Camera& camera,
                                    const Estimator& estimator);
 

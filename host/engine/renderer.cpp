@@ -256,6 +256,7 @@ void Renderer::fitToPicture() {
     if (!changed.empty()) devices_->sceneHasChanged(changed);
     kept_.ofRay = scene.ofRay;
     kept_.looksAtOccluders = scene.looksAtOccluders;
+    kept_.looksAtShadowMap = scene.looksAtShadowMap;
     const bool areStated = !scene_->portals.empty();
     if (const size_t count = scene.portals.all.size(); count > 0)
         listener_.detail(fmt::format("light samples aim at {} {} that the sky is seen through{}",

@@ -1,5 +1,6 @@
 #include "host/kernel/find_occluders.hpp"
 
+#include "host/kernel/certain_shadow.hpp"
 #include "host/kernel/lamp_light.hpp"
 #include "host/kernel/occluded_area.hpp"
 #include "host/kernel/seen_places.hpp"
@@ -23,11 +24,6 @@ constexpr double kLeastOfOne = 0.01;
 constexpr double kCostInRecords = 2.5;
 /// Planes that are looked at, those that stop most.
 constexpr size_t kMostWalls = 16;
-
-/// The sine of the smallest angle at which a ray crosses a rectangle, and how far from its plane
-/// the ray's ends are at least, over the largest coordinate (docs/theory/estimator.md,
-/// "Occluders").
-constexpr double kLeastFall = 0x1p-5, kThickness = 0x1p-17;
 
 // --- Light samples -------------------------------------------------------------------------------
 
@@ -131,11 +127,6 @@ std::vector<LightWay> lightWays(const Scene& scene, const GpuScene& packed, cons
 }
 
 // --- Planes --------------------------------------------------------------------------------------
-
-/// A triangle that lets no light through, for certain.
-bool isOpaque(const Material& m) {
-    return m.alphaMode == AlphaMode::Opaque && m.other == kNoMaterial && !m.boundsMedia;
-}
 
 /// A plane that light samples have met, and what of it is opaque.
 struct Wall {
@@ -271,23 +262,13 @@ Occluder occluderOf(const Wall& wall, const OpaqueCells& cells, const CellRectan
             half.x * wall.across, half.y * wall.along};
 }
 
-/// The largest coordinate, by which positions are rounded.
-double largestCoordinate(const Scene& scene) {
-    glm::vec3 largest(0);
-    for (const glm::vec3& p : scene.positions)
-        largest = glm::max(largest, glm::abs(p));
-    for (const Sphere& s : scene.spheres)
-        largest = glm::max(largest, glm::abs(s.center) + s.radius);
-    return double(std::max({largest.x, largest.y, largest.z}));
-}
-
 } // namespace
 
 Occluders findOccluders(const Scene& scene, const GpuScene& packed, const Camera& camera,
                         double leastShare) {
     if (packed.hasPlacements || packed.media != 0 || packed.lights.count == 0) return {};
     Occluders found;
-    found.thickness = kThickness * largestCoordinate(scene);
+    found.thickness = certainThickness(scene);
     const std::vector<LightWay> ways = lightWays(scene, packed, camera);
     if (!(found.thickness > 0) || ways.empty()) return {};
     const double least = leastShare * double(ways.size());

@@ -10,6 +10,7 @@
 #include "host/kernel/material_rows.hpp"
 #include "host/kernel/occluders.hpp"
 #include "host/kernel/rows.hpp"
+#include "host/kernel/shadow_map.hpp"
 #include "host/render/settings.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/scene_types.h"
@@ -37,6 +38,8 @@ struct GpuScene {
     /// Whether kernels look at them: as pays in the first picture, so that others need no other
     /// kernel; packScene() leaves it unknown.
     std::optional<bool> looksAtOccluders;
+    std::optional<ShadowMap> shadowMap;   ///< likewise (castShadows()); none: of no light
+    std::optional<bool> looksAtShadowMap; ///< likewise
     double glassBeforeLights =
         0;                  ///< shareThroughGlass() of the picture to come; packScene() leaves it 0
     VisitsOfRay ofRay;      ///< visitsOfRay() of its first picture; packScene() leaves it unknown

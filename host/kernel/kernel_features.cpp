@@ -269,6 +269,15 @@ uint32_t occludersLookedAt(const GpuScene& scene, const Estimator& settings) {
     return looks && mayLookAtOccluders(scene, settings) ? gpu::MOST_OCCLUDERS : 0;
 }
 
+bool mayLookAtShadowMap(const GpuScene& scene, const Estimator& settings) {
+    return (lightKinds(scene, settings) & 1u << gpu::LIGHT_DIRECTIONAL) != 0 &&
+           !lightsThroughGlass(scene, settings);
+}
+
+bool looksAtShadowMap(const GpuScene& scene, const Estimator& settings) {
+    return scene.looksAtShadowMap.value_or(false) && mayLookAtShadowMap(scene, settings);
+}
+
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning, Seeing what) {
     Estimator estimator = settings;
@@ -282,7 +291,7 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
     for (const KernelConstant ofLight :
          {SPEC_LIGHT_KINDS, SPEC_MIS_LOBES, SPEC_HAS_EMISSION, SPEC_HAS_AMBIENT,
           SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP, SPEC_AMBIENT_BY_BOUNCES, SPEC_BLACK_BACKS,
-          SPEC_MOST_OTHERS, SPEC_OCCLUDERS})
+          SPEC_MOST_OTHERS, SPEC_OCCLUDERS, SPEC_SHADOW_MAP})
         f[ofLight] = 0;
     // Colours are seen through media.
     constexpr uint32_t kDimming = gpu::MEDIA_DIM | gpu::MEDIA_VARY | gpu::MEDIA_VARY_EXTINCTION;

@@ -48,6 +48,9 @@ bool aimsAtPortals(const GpuScene& scene, const Estimator& settings);
 /// at: all that there may be, or none, so that kernels are shared.
 bool mayLookAtOccluders(const GpuScene& scene, const Estimator& settings);
 uint32_t occludersLookedAt(const GpuScene& scene, const Estimator& settings);
+/// Whether light samples of these settings may be stopped by a shadow map; and whether they are.
+bool mayLookAtShadowMap(const GpuScene& scene, const Estimator& settings);
+bool looksAtShadowMap(const GpuScene& scene, const Estimator& settings);
 
 /// Those of the kernel that records the path of a sample as it takes it.
 KernelFeatures recordingFeatures(const GpuScene& scene, const Camera& camera,

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <future>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -52,6 +53,10 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.litCells = scene.lit ? uint32_t(scene.lit->cells.size()) : 0;
     f.leastFall = leastFall(scene.occluders);
     std::ranges::copy(occluderRows(scene.occluders), std::begin(f.occluders));
+    const ShadowMap shadows = scene.shadowMap.value_or(ShadowMap{.leastAside = -1});
+    f.shadowAcross = shadows.across;
+    f.shadowAlong = shadows.along;
+    f.shadowTowards = glm::vec4(shadows.towards, shadows.leastAside);
     f.cameraMedium =
         camera.medium == kNoMedium ? gpu::NO_MEDIUM : scene.mediumRow.at(camera.medium);
     return f;
@@ -93,6 +98,20 @@ SeenPixel seenPixelOf(const SeenState& pixel, Seeing what, const GpuScene& scene
 } // namespace
 
 // --- The backend ---------------------------------------------------------------------------------
+
+namespace {
+
+/// By what samples choose where they go: light samples to the sky by portals or the guide, bounces
+/// by lit cells, of which there are none where there is a sky. Empty: by none of these.
+std::vector<Row> whereSamplesGo(const GpuScene& scene, const Estimator& estimator) {
+    if (aimsAtPortals(scene, estimator) && !scene.portals.all.empty())
+        return portalRows(scene.portals.all);
+    if (aimsBounces(scene, estimator)) return litRows(*scene.lit);
+    if (guidesLight(scene, estimator)) return scene.guide->rows;
+    return {};
+}
+
+} // namespace
 
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
                        const GpuScene& scene, const PictureArea& area, uint32_t strands) {
@@ -142,7 +161,6 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     camera_ = camera;
     estimator_ = estimator;
     frame_ = makeFrame(*scene_, camera, area_, estimator);
-    const bool aims = aimsAtPortals(*scene_, estimator) && !scene_->portals.all.empty();
     // The driver compiles on one thread, and the scene goes to the device meanwhile.
     std::future<StageKernels> compiled = std::async(std::launch::async, [&] {
         return kernelsFor(kernelFeatures(*scene_, camera, estimator, tuning), tuning);
@@ -152,12 +170,11 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
             std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
     filter_ =
         uploaded("pixel filter", filterTable(estimator.filter, estimator.filterShape), tuning);
-    portals_ = aims ? uploaded("portals", portalRows(scene_->portals.all), tuning) : nullptr;
-    litCells_ = aimsBounces(*scene_, estimator_)
-                    ? uploaded("lit cells", litRows(*scene_->lit), tuning)
-                    : nullptr;
-    guide_ = guidesLight(*scene_, estimator_) ? uploaded("light guide", scene_->guide->rows, tuning)
-                                              : nullptr;
+    std::vector<Row> rows = whereSamplesGo(*scene_, estimator);
+    frame_.shadowMap = uint32_t(rows.size());
+    if (looksAtShadowMap(*scene_, estimator) && scene_->shadowMap)
+        std::ranges::copy(scene_->shadowMap->heights, std::back_inserter(rows));
+    guide_ = rows.empty() ? nullptr : uploaded("where samples go", rows, tuning);
     const StageKernels kernels = compiled.get();
     kernel_ = kernels.front();
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
@@ -168,20 +185,12 @@ std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSe
                                                           const StageKernels& kernels,
                                                           const gpu::Frame& frame,
                                                           const DeviceTuning& tuning) const {
-    const DispatchTarget target{device_, *deviceScene_, film, *filter_, whereSamplesGo()};
+    const DispatchTarget target{device_, *deviceScene_, film, *filter_,
+                                guide_ ? *guide_ : *filter_};
     const DispatchSettings settings{frame, tuning, tuning_.targetSeconds, tuning_.fixedIterations};
     if (tuning.scheduler == PathScheduler::Wavefront)
         return std::make_unique<WavefrontDispatcher>(target, kernels, settings);
     return std::make_unique<PersistentDispatcher>(target, *kernels.front(), settings);
-}
-
-/// The buffer by which samples choose where they go: light samples to the sky by portals or the
-/// guide, bounces by lit cells, of which there are none where there is a sky. Kernels without any
-/// read nothing of it, and get one that is there in any case.
-const vulkan::Buffer& VulkanBackend::whereSamplesGo() const {
-    if (portals_) return *portals_;
-    if (litCells_) return *litCells_;
-    return guide_ ? *guide_ : *filter_;
 }
 
 std::unique_ptr<vulkan::Buffer> VulkanBackend::uploaded(std::string_view name,

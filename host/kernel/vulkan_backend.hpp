@@ -89,7 +89,6 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
                                                const StageKernels& kernels, const gpu::Frame& frame,
                                                const DeviceTuning& tuning) const;
     std::vector<SampleValue> someAlone(uint32_t pixel, uint32_t first, uint32_t count) const;
-    const vulkan::Buffer& whereSamplesGo() const;
     std::unique_ptr<vulkan::Buffer> uploaded(std::string_view name, const std::vector<Row>& rows,
                                              const DeviceTuning& tuning) const;
 
@@ -108,11 +107,11 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
     gpu::Frame frame_{};
     const PathKernel* kernel_ = nullptr; ///< one of kernels_
     std::unique_ptr<DeviceFilm> film_;
-    std::unique_ptr<vulkan::Buffer> guide_;    ///< LightGuide::rows; none: it is not read
-    std::unique_ptr<vulkan::Buffer> litCells_; ///< litRows(); none: bounces do not aim
-    std::unique_ptr<vulkan::Buffer> portals_;  ///< PortalRows; none: light samples aim at none
-    std::unique_ptr<vulkan::Buffer> filter_;   ///< the table of its pixel filter
-    std::unique_ptr<Dispatcher> dispatcher_;   ///< refers to film, filter and kernels
+    /// What guides samples, and behind it the shadow map; none: kernels read neither, and are given
+    /// another buffer.
+    std::unique_ptr<vulkan::Buffer> guide_;
+    std::unique_ptr<vulkan::Buffer> filter_; ///< the table of its pixel filter
+    std::unique_ptr<Dispatcher> dispatcher_; ///< refers to film, filter, guide and kernels
 };
 
 } // namespace stromboli

@@ -21,11 +21,6 @@ bool aimsFrom(Material m) {
     return AIMS_BOUNCES && hasClosure(m, CLOSURE_BASE) && (lobesOf(m) & LOBE_GLOSSY_TRANSMISSION) == 0u;
 }
 
-uint componentOf(uvec4 row, uint index) {
-    const uvec2 pair = index < 2u ? row.xy : row.zw;
-    return (index & 1u) == 0u ? pair.x : pair.y;
-}
-
 LitCell litCell(uint number) {
     const uvec4 r = ROW(guideRows, number);
     return LitCell(uintBitsToFloat(r.x), r.y, r.z, uintBitsToFloat(r.w));

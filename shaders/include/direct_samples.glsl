@@ -62,6 +62,7 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
     const vec3 origin = leaveThroughMedia(path.surface, light.direction, transmitted);
     const vec3 toEnd = light.infinite ? light.direction : light.target - origin;
     if (OCCLUDERS > 0u && !hemisphere && stopsAtOccluder(given, origin, toEnd, light.infinite)) return;
+    if (SHADOW_MAP && !hemisphere && light.infinite && isInShadow(given.shadow, origin, light.direction)) return;
     // What the ray of hemisphere sampling goes through is known when it has arrived.
     if (HAS_ABSORPTION && !hemisphere)
         path.directValue *=

@@ -25,6 +25,11 @@ SCENE_BUFFER(BINDING_DETAIL, detailRows)
 SCENE_BUFFER(BINDING_FILTER, filterRows)
 SCENE_BUFFER(BINDING_GUIDE, guideRows)
 
+uint componentOf(uvec4 row, uint index) {
+    const uvec2 pair = index < 2u ? row.xy : row.zw;
+    return (index & 1u) == 0u ? pair.x : pair.y;
+}
+
 /// A record of the BVH as it lies in memory: a NodeRecord or a LeafRecord.
 struct Record {
     uvec4 r0, r1, r2, r3;

@@ -38,10 +38,17 @@ struct Occluders {
     Occluder all[MOST_OCCLUDERS];
 };
 
+/// What a sun does not reach (shadow_map.glsl).
+struct ShadowMap {
+    vec4 across, along, towards; ///< as Frame has them
+    uint firstRow;
+};
+
 struct Given {
     Frame frame;
     PictureGrid grid;
     OnlyLight onlyLight;
     Gap gap;
     Occluders occluders;
+    ShadowMap shadow;
 };

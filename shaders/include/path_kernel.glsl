@@ -38,6 +38,7 @@ uint firstPlace() { return gl_WorkGroupID.x >> 31; }
 #include "lights/lights.glsl"
 #include "include/gap_proposal.glsl"
 #include "include/occluders.glsl"
+#include "include/shadow_map.glsl"
 #include "include/two_sides.glsl"
 #include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"
@@ -54,6 +55,7 @@ Given findGiven() {
     given.gap = findGap(given.frame, given.onlyLight);
     for (uint i = 0u; i < OCCLUDERS; ++i)
         given.occluders.all[i] = occluderOf(frames[dispatches[0].framePlace], i);
+    if (SHADOW_MAP) given.shadow = shadowMapOf(frames[dispatches[0].framePlace]);
     return given;
 }
 

@@ -179,9 +179,11 @@
       "occluders", count(""), "rectangles of walls that are looked at before a light sample's ray is traced") \
     F(68, bool, ROWS_REACH_POLES, false, f[SPEC_HAS_ENVIRONMENT] && scene.lights.environment && \
         scene.lights.environment->rows.reachPoles, own, \
-      "environment whose rows reach the poles", flag, "rows of texels whose middles are the zenith and the nadir")
+      "environment whose rows reach the poles", flag, "rows of texels whose middles are the zenith and the nadir") \
+    F(69, bool, SHADOW_MAP, false, looksAtShadowMap(scene, settings), own, \
+      "shadow map", flag, "places that a sun reaches for certain not, looked up before a light sample's ray is traced")
 
-#define SPEC_COUNT 69
+#define SPEC_COUNT 70
 
 #ifdef __cplusplus
 namespace stromboli {

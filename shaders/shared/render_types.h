@@ -10,6 +10,9 @@ SHARED_BEGIN
 SHARED_CONST uint MOST_OCCLUDERS = 8u;
 SHARED_CONST uint OCCLUDER_ROWS = 3u;
 
+/// Cells along a side of a shadow map (include/shadow_map.glsl), four to a row of the buffer of guided samples.
+SHARED_CONST uint SHADOW_MAP_SIDE = 512u;
+
 /// What all dispatches of a picture have in common.
 struct Frame {
     vec3 cameraPosition;
@@ -40,10 +43,13 @@ struct Frame {
     float portalShare; ///< of light samples to the sky that aim at portals (lights/portals.glsl)
     uint litCells; ///< that bounces aim at, with AIMS_BOUNCES (aimed_bounces.glsl)
     float leastFall; ///< of a ray that crosses an occluder: its square over that of the ray's length
-    uint unused0, unused1;
+    uint shadowMap; ///< its first row in the buffer of guided samples, with SHADOW_MAP
+    uint unused;
+    vec4 shadowAcross, shadowAlong; ///< of the shadow map's cells: column and row of a point p are dot(xyz, p) + w
+    vec4 shadowTowards; ///< to the light: unit, the square of how far a direction is from that, at most
     vec4 occluders[OCCLUDER_ROWS * MOST_OCCLUDERS];
 };
-SHARED_ROWS(Frame, 34);
+SHARED_ROWS(Frame, 37);
 SHARED_OFFSET(Frame, nearDistance, 64);
 SHARED_OFFSET(Frame, areaLights, 96);
 

@@ -35,6 +35,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "lights/lights.glsl"
 #include "include/gap_proposal.glsl"
 #include "include/occluders.glsl"
+#include "include/shadow_map.glsl"
 #include "include/two_sides.glsl"
 #include "include/aimed_bounces.glsl"
 #include "include/medium.glsl"

@@ -191,7 +191,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
             f.minBounce, f.maxBounces, f.terminationProbability, f.lightCount, f.areaLights,
             f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight, f.lightsInGroup0,
             f.lightsInGroup1, f.lightsInGroup2, f.lensRadius, f.focusDistance, f.cameraMedium,
-            f.portalShare, f.litCells, f.leastFall, f.unused0, f.unused1);
+            f.portalShare, f.litCells, f.leastFall, f.shadowMap, f.unused,
+            f.shadowAcross, f.shadowAlong, f.shadowTowards);
         for (const glm::vec4& row : f.occluders)
             expected_.structure("Frame, occluders", row);
     }
