@@ -46,7 +46,7 @@ struct DispatchTarget {
     const DeviceScene& scene;
     std::span<const FilmSegment> film;
     const vulkan::Buffer& filter; ///< the picture's table (sampling_tables.hpp)
-    const vulkan::Buffer& guide;  ///< what guiding has learnt, or portals; without either, any
+    const vulkan::Buffer& guide;  ///< what guides samples, and the shadow map; any other without
 };
 
 /// How it does so.

@@ -357,11 +357,20 @@ Portals statedPortals(std::span<const Portal> portals, const Camera& camera) {
     return stated;
 }
 
-std::vector<Row> portalRows(std::span<const Portal> portals) {
-    std::vector<Row> rows;
-    for (const Portal& p : portals)
-        appendRows(rows, gpu::PortalRows{p.corner, 0, p.edgeA, 1 / glm::dot(p.edgeA, p.edgeA),
-                                         p.edgeB, 1 / glm::dot(p.edgeB, p.edgeB)});
+std::array<glm::vec4, gpu::PORTAL_ROWS * gpu::MOST_PORTALS>
+portalRows(std::span<const Portal> portals) {
+    static_assert(gpu::MOST_PORTALS == kMostPortals);
+    std::array<glm::vec4, gpu::PORTAL_ROWS * gpu::MOST_PORTALS> rows{};
+    for (size_t i = 0; i < portals.size(); ++i) {
+        const Portal& p = portals[i];
+        const glm::vec3 half = 0.5f * (p.edgeA + p.edgeB);
+        glm::vec4* row = &rows[gpu::PORTAL_ROWS * i];
+        row[0] = glm::vec4(p.corner, 0);
+        row[1] = glm::vec4(p.edgeA, 1 / glm::dot(p.edgeA, p.edgeA));
+        row[2] = glm::vec4(p.edgeB, 1 / glm::dot(p.edgeB, p.edgeB));
+        row[3] = glm::vec4(glm::cross(p.edgeA, p.edgeB), glm::length(half));
+        row[4] = glm::vec4(half, 0);
+    }
     return rows;
 }
 

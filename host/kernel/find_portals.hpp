@@ -2,10 +2,13 @@
 
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/feelers.hpp"
-#include "host/kernel/rows.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/portal.hpp"
+#include "shaders/shared/render_types.h"
 
+#include <glm/glm.hpp>
+
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,7 +34,8 @@ Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenne
 /// Portals that were stated: as many as are used, turned to the side that the camera is on.
 Portals statedPortals(std::span<const Portal> portals, const Camera& camera);
 
-/// As the kernel reads them: PortalRows (shaders/shared/light_types.h).
-std::vector<Row> portalRows(std::span<const Portal> portals);
+/// As the kernel reads them (Frame::portals).
+std::array<glm::vec4, gpu::PORTAL_ROWS * gpu::MOST_PORTALS>
+portalRows(std::span<const Portal> portals);
 
 } // namespace stromboli

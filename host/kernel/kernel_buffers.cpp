@@ -100,8 +100,8 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
         plans.push_back({"light guide", scene.guide->rows.size() * sizeof(Row), rows});
     if (aimsBounces(scene, estimator))
         plans.push_back({"lit cells", scene.lit->rowCount() * sizeof(Row), rows});
-    if (aimsAtPortals(scene, estimator))
-        plans.push_back({"portals", kMostPortals * sizeof(gpu::PortalRows), rows});
+    if (looksAtShadowMap(scene, estimator))
+        plans.push_back({"shadow map", size_t(gpu::SHADOW_MAP_SIDE) * gpu::SHADOW_MAP_SIDE * 4, rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
     return plans;

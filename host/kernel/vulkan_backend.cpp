@@ -53,6 +53,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.litCells = scene.lit ? uint32_t(scene.lit->cells.size()) : 0;
     f.leastFall = leastFall(scene.occluders);
     std::ranges::copy(occluderRows(scene.occluders), std::begin(f.occluders));
+    std::ranges::copy(portalRows(scene.portals.all), std::begin(f.portals));
     const ShadowMap shadows = scene.shadowMap.value_or(ShadowMap{.leastAside = -1});
     f.shadowAcross = shadows.across;
     f.shadowAlong = shadows.along;
@@ -101,11 +102,9 @@ SeenPixel seenPixelOf(const SeenState& pixel, Seeing what, const GpuScene& scene
 
 namespace {
 
-/// By what samples choose where they go: light samples to the sky by portals or the guide, bounces
-/// by lit cells, of which there are none where there is a sky. Empty: by none of these.
+/// By what samples choose where they go: light samples to the sky by the guide, bounces by lit
+/// cells, of which there are none where there is a sky. Empty: by neither.
 std::vector<Row> whereSamplesGo(const GpuScene& scene, const Estimator& estimator) {
-    if (aimsAtPortals(scene, estimator) && !scene.portals.all.empty())
-        return portalRows(scene.portals.all);
     if (aimsBounces(scene, estimator)) return litRows(*scene.lit);
     if (guidesLight(scene, estimator)) return scene.guide->rows;
     return {};

@@ -38,6 +38,19 @@ struct Occluders {
     Occluder all[MOST_OCCLUDERS];
 };
 
+/// A rectangle through which a room sees the sky (lights/portals.glsl).
+struct Portal {
+    vec3 corner, edgeA, edgeB;
+    vec2 perSquare; ///< 1 / the squares of the edges' lengths
+    vec3 normal;    ///< edgeA x edgeB, into the room
+    vec3 half_;     ///< from the corner to the middle,
+    float reach;    ///< and how far that is
+};
+
+struct Portals {
+    Portal all[MOST_PORTALS];
+};
+
 /// What a sun does not reach (shadow_map.glsl).
 struct ShadowMap {
     vec4 across, along, towards; ///< as Frame has them
@@ -51,4 +64,6 @@ struct Given {
     Gap gap;
     Occluders occluders;
     ShadowMap shadow;
+    Portals portals;
+    LightRows sky; ///< of what rays find that meet nothing, with HAS_AMBIENT
 };

@@ -51,9 +51,9 @@ void finishShadowRay(inout PathState path) {
     }
 }
 
-void finishHemisphereRay(const Frame frame, inout PathState path) {
+void finishHemisphereRay(const Given given, inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
-    vec3 arriving = BOUNCES_FIND_ALL_LIGHT ? skyFrom(frame, path.departurePoint, path.ray.direction, path.departureTable, path.ray.direction).radiance : vec3(0.0);
+    vec3 arriving = BOUNCES_FIND_ALL_LIGHT ? skyFrom(given, path.departurePoint, path.ray.direction, path.departureTable, path.ray.direction).radiance : vec3(0.0);
     if (hit) {
         const SurfacePoint s = surfaceAt(path.ray);
         arriving = emissionAt(s, materialAt(s));
@@ -82,7 +82,7 @@ void arrive(const Given given, inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE, inMedium = scattersInMedium(path.ray);
     path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
-    if (!hit) sky = skyFrom(given.frame, path.departurePoint, path.departureNormal, path.departureTable, directionToSky(path));
+    if (!hit) sky = skyFrom(given, path.departurePoint, path.departureNormal, path.departureTable, directionToSky(path));
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.filling.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
@@ -313,7 +313,7 @@ bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
     if (isToLight(path.phase)) finishShadowRay(path);
-    else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(given.frame, path);
+    else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(given, path);
     if (path.phase == PHASE_PATH) arrive(given, path);
     comeBackFromGlass(path);
     return true;

@@ -55,6 +55,9 @@ Given findGiven() {
     given.gap = findGap(given.frame, given.onlyLight);
     for (uint i = 0u; i < OCCLUDERS; ++i)
         given.occluders.all[i] = occluderOf(frames[dispatches[0].framePlace], i);
+    for (uint i = 0u; i < PORTALS; ++i)
+        given.portals.all[i] = portalOf(frames[dispatches[0].framePlace], i);
+    if (HAS_AMBIENT) given.sky = fetchLightRows(0u);
     if (SHADOW_MAP) given.shadow = shadowMapOf(frames[dispatches[0].framePlace]);
     return given;
 }

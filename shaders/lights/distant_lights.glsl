@@ -14,10 +14,10 @@ vec3 ambientRadianceOf(LightRows rows, vec3 w) {
     return colorOf(rows) + (w.y > 0.0 ? ambientLight(rows).fromAbove : vec3(0.0));
 }
 
-LightSample sampleAmbientLight(const Frame frame, SurfacePoint s, LightRows rows, vec2 u) {
+LightSample sampleAmbientLight(const Given given, SurfacePoint s, LightRows rows, vec2 u) {
     const vec3 p = litPoint(s), n = shadingNormal(s);
     PortalSample aimed = NOT_AIMED;
-    if (PORTALS > 0u) aimed = samplePortals(frame, p, n, u);
+    if (PORTALS > 0u) aimed = samplePortals(given, p, n, u);
     vec3 w = aimed.direction;
     float inversePdf = 1.0 / max(ambientPdf(n, w), TINY);
     if (!AMBIENT_ABOUT_NORMAL) {
@@ -32,7 +32,7 @@ LightSample sampleAmbientLight(const Frame frame, SurfacePoint s, LightRows rows
             inversePdf = 4.0 * PI;
         }
     }
-    return skySample(frame, p, n, aimed, w, ambientRadianceOf(rows, w), inversePdf);
+    return skySample(given, p, n, aimed, w, ambientRadianceOf(rows, w), inversePdf);
 }
 
 /// What a ray finds that meets nothing: the scene's ambient light or environment. It is the first in the
@@ -45,15 +45,15 @@ struct FoundSky {
 const FoundSky NO_SKY = FoundSky(vec3(0.0), 1.0);
 
 /// w: the ray's direction; p, normal and table: of the surface that it left (guideTable()).
-FoundSky skyFrom(const Frame frame, vec3 p, vec3 normal, uint table, vec3 w) {
+FoundSky skyFrom(const Given given, vec3 p, vec3 normal, uint table, vec3 w) {
     if (!HAS_AMBIENT) return NO_SKY;
     FoundSky found = FoundSky(vec3(0.0), 1.0 / max(ambientPdf(normal, w), TINY));
-    const LightRows rows = fetchLightRows(0u);
+    const LightRows rows = given.sky;
     if (kindOf(rows) == LIGHT_AMBIENT) found.radiance = ambientRadianceOf(rows, w);
     if (HAS_ENVIRONMENT && kindOf(rows) == LIGHT_ENVIRONMENT) {
         const EnvironmentValue value = environmentFrom(rows, table, w);
         found = FoundSky(value.radiance, 1.0 / max(value.pdf, TINY));
     }
-    if (PORTALS > 0u) found.inversePdf = skyInversePdf(frame, portalDensity(p, normal, w), found.inversePdf);
+    if (PORTALS > 0u) found.inversePdf = skyInversePdf(given.frame, portalDensity(given.portals, p, normal, w), found.inversePdf);
     return found;
 }

@@ -141,11 +141,11 @@ uvec2 pickEnvironmentTexel(EnvironmentLight e, uint table, inout vec2 u) {
 }
 
 /// s: the surface from the side where light leaves.
-LightSample sampleEnvironment(const Frame frame, SurfacePoint s, LightRows rows, vec2 u) {
+LightSample sampleEnvironment(const Given given, SurfacePoint s, LightRows rows, vec2 u) {
     const EnvironmentLight e = environmentLight(rows);
     const vec3 p = litPoint(s), n = shadingNormal(s);
     PortalSample aimed = NOT_AIMED;
-    if (PORTALS > 0u) aimed = samplePortals(frame, p, n, u);
+    if (PORTALS > 0u) aimed = samplePortals(given, p, n, u);
     vec2 place = vec2(0.0);
     if (!aimed.isAimed) {
         const uvec2 texel = pickEnvironmentTexel(e, s.table, u);
@@ -162,5 +162,5 @@ LightSample sampleEnvironment(const Frame frame, SurfacePoint s, LightRows rows,
         place = placeInEnvironment(e, direction);
     }
     const EnvironmentValue value = environmentAt(e, colorOf(rows), s.table, place);
-    return skySample(frame, p, n, aimed, direction, value.radiance, value.pdf > 0.0 ? 1.0 / value.pdf : 0.0);
+    return skySample(given, p, n, aimed, direction, value.radiance, value.pdf > 0.0 ? 1.0 / value.pdf : 0.0);
 }

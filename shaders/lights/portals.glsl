@@ -1,51 +1,51 @@
 // Light samples to the sky that aim at portals: rectangles through which a room sees it (docs/theory/estimator.md,
 // "Portals"). They share directions with samples by the sky's own density, by the balance heuristic.
 
+Portal portalOf(const Frame frame, uint number) {
+    const uint row = PORTAL_ROWS * number;
+    const vec4 a = frame.portals[row + 1u], b = frame.portals[row + 2u], normal = frame.portals[row + 3u];
+    return Portal(frame.portals[row].xyz, a.xyz, b.xyz, vec2(a.w, b.w), normal.xyz, frame.portals[row + 4u].xyz, normal.w);
+}
+
 /// As seen from a point: `corner` is relative to it.
 struct SeenPortal {
     uint index;
     vec3 corner, edgeA, edgeB;
-    vec2 perSquare; ///< of the edges' lengths
     float weight;   ///< with which it is chosen; 0: it does not shine on the surface
 };
 
 /// weight: an approximation of the solid angle that the portal takes up (steradians), times a bound of the cosine at the
 /// surface with the unit normal n; in a medium (isNowhere(n)) the angle alone. Both densities below have the same weights,
 /// so that these decide about noise and put no bias on the picture.
-SeenPortal seePortal(uint index, vec3 p, vec3 n) {
-    const uvec4 r0 = ROW(guideRows, PORTAL_ROWS * index), r1 = ROW(guideRows, PORTAL_ROWS * index + 1u),
-                r2 = ROW(guideRows, PORTAL_ROWS * index + 2u);
+SeenPortal seePortal(Portal portal, uint index, vec3 p, vec3 n) {
     SeenPortal s;
     s.index = index;
-    s.corner = uintBitsToFloat(r0.xyz) - p;
-    s.edgeA = uintBitsToFloat(r1.xyz);
-    s.edgeB = uintBitsToFloat(r2.xyz);
-    s.perSquare = uintBitsToFloat(uvec2(r1.w, r2.w));
-    const vec3 half_ = 0.5 * (s.edgeA + s.edgeB), middle = s.corner + half_;
+    s.corner = portal.corner - p;
+    s.edgeA = portal.edgeA;
+    s.edgeB = portal.edgeB;
+    const vec3 middle = s.corner + portal.half_;
     const float inverse = inversesqrt(max(dot(middle, middle), TINY));
-    const float height = -dot(cross(s.edgeA, s.edgeB), middle);
+    const float height = -dot(portal.normal, middle);
     const float angle = min(height * inverse * inverse * inverse, 2.0 * PI);
-    const float reach = sqrt(dot(half_, half_));
-    const float cosine = isNowhere(n) ? 1.0 : clamp((dot(n, middle) + reach) * inverse, 0.0, 1.0);
+    const float cosine = isNowhere(n) ? 1.0 : clamp((dot(n, middle) + portal.reach) * inverse, 0.0, 1.0);
     s.weight = max(angle, 0.0) * cosine;
     return s;
 }
 
-bool isPassed(SeenPortal s, vec3 w) {
-    const vec3 normal = cross(s.edgeA, s.edgeB);
-    const float t = dot(s.corner, normal) / dot(w, normal);
+bool isPassed(Portal portal, SeenPortal s, vec3 w) {
+    const float t = dot(s.corner, portal.normal) / dot(w, portal.normal);
     const vec3 at = t * w - s.corner;
-    const vec2 place = vec2(dot(at, s.edgeA), dot(at, s.edgeB)) * s.perSquare;
-    return s.weight > 0.0 && dot(w, normal) < 0.0 && t > 0.0 && min(place.x, place.y) >= 0.0 && max(place.x, place.y) <= 1.0;
+    const vec2 place = vec2(dot(at, s.edgeA), dot(at, s.edgeB)) * portal.perSquare;
+    return s.weight > 0.0 && dot(w, portal.normal) < 0.0 && t > 0.0 && min(place.x, place.y) >= 0.0 && max(place.x, place.y) <= 1.0;
 }
 
 /// Chooses one of them by weight. u: a number in [0, 1); uniform again afterwards. weight 0: none shines on the surface.
-SeenPortal choosePortal(vec3 p, vec3 n, inout float u) {
+SeenPortal choosePortal(const Portals portals, vec3 p, vec3 n, inout float u) {
     SeenPortal chosen;
     chosen.weight = 0.0;
     float total = 0.0;
     for (uint i = 0u; i < PORTALS; ++i) {
-        const SeenPortal s = seePortal(i, p, n);
+        const SeenPortal s = seePortal(portals.all[i], i, p, n);
         total += s.weight;
         const float part = s.weight / max(total, TINY);
         const bool takes = u < part;
@@ -63,15 +63,15 @@ struct PortalDensity {
 };
 const uint NO_PORTAL = 0xFFFFFFFFu;
 
-PortalDensity portalDensity(vec3 p, vec3 n, vec3 w) {
+PortalDensity portalDensity(const Portals portals, vec3 p, vec3 n, vec3 w) {
     SeenPortal passed;
     passed.index = NO_PORTAL;
     passed.weight = 0.0;
     float total = 0.0;
     for (uint i = 0u; i < PORTALS; ++i) {
-        const SeenPortal s = seePortal(i, p, n);
+        const SeenPortal s = seePortal(portals.all[i], i, p, n);
         total += s.weight;
-        if (passed.index == NO_PORTAL && isPassed(s, w)) passed = s;
+        if (passed.index == NO_PORTAL && isPassed(portals.all[i], s, w)) passed = s;
     }
     PortalDensity d = PortalDensity(passed.index, 0.0, total > 0.0);
     if (passed.index != NO_PORTAL) {
@@ -91,12 +91,12 @@ struct PortalSample {
 
 const PortalSample NOT_AIMED = PortalSample(false, 0u, vec3(0.0, 0.0, 1.0));
 
-PortalSample samplePortals(const Frame frame, vec3 p, vec3 n, inout vec2 u) {
+PortalSample samplePortals(const Given given, vec3 p, vec3 n, inout vec2 u) {
     // By new digits where some are used up: the sky's own tables choose by all 24 of them.
     ChoiceNumber c = choiceNumber(u);
-    const bool first = choosesFirst(c, uint(frame.portalShare * 2147483648.0));
+    const bool first = choosesFirst(c, uint(given.frame.portalShare * 2147483648.0));
     float within = restOf(c);
-    const SeenPortal s = choosePortal(p, n, within);
+    const SeenPortal s = choosePortal(given.portals, p, n, within);
     PortalSample r = PortalSample(first && s.weight > 0.0, s.index, vec3(0.0, 0.0, 1.0));
     if (r.isAimed) {
         const vec3 normal = planeNormal(s.edgeA, s.edgeB), both = cross(s.edgeA, s.edgeB);
@@ -119,12 +119,12 @@ float skyInversePdf(const Frame frame, PortalDensity d, float inverseOwnPdf) {
 
 /// A sample of the sky at a surface, in direction w. A direction that was drawn for one portal and belongs to another
 /// brings nothing: then the densities are those of directions that belong to each.
-LightSample skySample(const Frame frame, vec3 p, vec3 n, PortalSample aimed, vec3 w, vec3 radiance, float inverseOwnPdf) {
+LightSample skySample(const Given given, vec3 p, vec3 n, PortalSample aimed, vec3 w, vec3 radiance, float inverseOwnPdf) {
     float inversePdf = inverseOwnPdf;
     bool isOwn = true;
     if (PORTALS > 0u) {
-        const PortalDensity d = portalDensity(p, n, w);
-        inversePdf = skyInversePdf(frame, d, inverseOwnPdf);
+        const PortalDensity d = portalDensity(given.portals, p, n, w);
+        inversePdf = skyInversePdf(given.frame, d, inverseOwnPdf);
         isOwn = !aimed.isAimed || d.portal == aimed.portal;
     }
     return LightSample(w, true, w, isOwn ? radiance * inversePdf : vec3(0.0), inversePdf);

@@ -22,7 +22,7 @@ SHARED_BEGIN
 #define BINDING_PATHS 10 // states of paths (path_fields.h)
 #define BINDING_STATUS 11
 #define BINDING_FILTER 12 // the table of a pixel filter; read row by row as well
-#define BINDING_GUIDE 13    // by what samples choose where they go: the guide (guide_types.h), portals or lit cells (light_types.h)
+#define BINDING_GUIDE 13    // by what samples choose where they go: the guide (guide_types.h) or lit cells (light_types.h); the shadow map
 #define BINDING_QUEUES 14   // of the wavefront scheduler alone
 #define BINDING_COUNT 15
 #define SCENE_BINDING_COUNT 7 // bindings 0 to 6 hold the scene and are read row by row

@@ -87,9 +87,9 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
 #define LIGHT_STRUCTURES(F) \
     F(QuadLight, quadLight, QUAD_LIGHT, isLight(kind, LIGHT_QUAD), sampleQuadLight(given.onlyLight, s, rows, u)) \
     F(SphereLight, sphereLight, SPHERE_LIGHT, isLight(kind, LIGHT_SPHERE), sampleSphereLight(s, rows, u)) \
-    F(AmbientLight, ambientLight, AMBIENT_LIGHT, isLight(kind, LIGHT_AMBIENT), sampleAmbientLight(given.frame, s, rows, u)) \
+    F(AmbientLight, ambientLight, AMBIENT_LIGHT, isLight(kind, LIGHT_AMBIENT), sampleAmbientLight(given, s, rows, u)) \
     F(EnvironmentLight, environmentLight, ENVIRONMENT_LIGHT, isLight(kind, LIGHT_ENVIRONMENT), \
-      sampleEnvironment(given.frame, s, rows, u)) \
+      sampleEnvironment(given, s, rows, u)) \
     DELTA_LIGHT_STRUCTURES(F)
 
 /// Surfaces of clear glass that a light sample goes through at most (include/clear_glass.glsl); behind more, bounces find
@@ -135,18 +135,6 @@ struct EnvironmentTexel {
 SHARED_ROWS(EnvironmentTexel, 1);
 SHARED_CONST uint ENVIRONMENT_MANTISSA_BITS = 18u;
 SHARED_CONST uint ENVIRONMENT_EXPONENT_BIAS = 145u;
-
-/// A portal (scene/model/portal.hpp).
-struct PortalRows {
-    vec3 corner;
-    float unused0;
-    vec3 edgeA;
-    float perSquareA; ///< 1 / edgeA . edgeA
-    vec3 edgeB;
-    float perSquareB;
-};
-SHARED_CONST uint PORTAL_ROWS = 3u;
-SHARED_ROWS(PortalRows, PORTAL_ROWS);
 
 /// A cell of a triangle or of a sphere that lamps light, a column of an alias table of all such cells (host/kernel/find_lit_cells.hpp).
 /// A triangle's squares of barycentric weights are numbered by that of v1, then that of v2, and have two cells each, that

@@ -10,6 +10,10 @@ SHARED_BEGIN
 SHARED_CONST uint MOST_OCCLUDERS = 8u;
 SHARED_CONST uint OCCLUDER_ROWS = 3u;
 
+/// Portals of a room, at most, and rows of each (lights/portals.glsl).
+SHARED_CONST uint MOST_PORTALS = 8u;
+SHARED_CONST uint PORTAL_ROWS = 5u;
+
 /// Cells along a side of a shadow map (include/shadow_map.glsl), four to a row of the buffer of guided samples.
 SHARED_CONST uint SHADOW_MAP_SIDE = 512u;
 
@@ -47,9 +51,10 @@ struct Frame {
     uint unused;
     vec4 shadowAcross, shadowAlong; ///< of the shadow map's cells: column and row of a point p are dot(xyz, p) + w
     vec4 shadowTowards; ///< to the light: unit, the square of how far a direction is from that, at most
+    vec4 portals[PORTAL_ROWS * MOST_PORTALS];
     vec4 occluders[OCCLUDER_ROWS * MOST_OCCLUDERS];
 };
-SHARED_ROWS(Frame, 37);
+SHARED_ROWS(Frame, 77);
 SHARED_OFFSET(Frame, nearDistance, 64);
 SHARED_OFFSET(Frame, areaLights, 96);
 

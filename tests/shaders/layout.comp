@@ -104,6 +104,8 @@ void putFrame() {
     put(frame.lensRadius), put(frame.focusDistance), put(frame.cameraMedium);
     put(frame.portalShare), put(frame.litCells), put(frame.leastFall), put(frame.shadowMap), put(frame.unused);
     put(frame.shadowAcross), put(frame.shadowAlong), put(frame.shadowTowards);
+    for (uint i = 0u; i < PORTAL_ROWS * MOST_PORTALS; ++i)
+        put(frame.portals[i]);
     for (uint i = 0u; i < OCCLUDER_ROWS * MOST_OCCLUDERS; ++i)
         put(frame.occluders[i]);
 }

@@ -193,6 +193,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
             f.lightsInGroup1, f.lightsInGroup2, f.lensRadius, f.focusDistance, f.cameraMedium,
             f.portalShare, f.litCells, f.leastFall, f.shadowMap, f.unused,
             f.shadowAcross, f.shadowAlong, f.shadowTowards);
+        for (const glm::vec4& row : f.portals)
+            expected_.structure("Frame, portals", row);
         for (const glm::vec4& row : f.occluders)
             expected_.structure("Frame, occluders", row);
     }
