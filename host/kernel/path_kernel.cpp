@@ -48,6 +48,14 @@ struct FieldConditions {
     bool emissionHasFactors() const {
         return sceneHasSlot(gpu::TEXTURE_EMISSION) || HAS_ALPHA != 0;
     }
+    bool samplesLightKind(uint32_t kind) const {
+        return (LIGHT_KINDS & 1u << kind) != 0;
+    }
+    bool findsSkyOnArrival() const {
+        return HAS_AMBIENT != 0 && DIRECT_LIGHT == gpu::DIRECT_LIGHTS && LIGHT_THROUGH_GLASS == 0 &&
+               (samplesLightKind(gpu::LIGHT_ENVIRONMENT) ||
+                (samplesLightKind(gpu::LIGHT_AMBIENT) && PORTALS > 0));
+    }
     bool sceneHasCoatNormals() const {
         return sceneHas(gpu::CLOSURE_COAT) && sceneHas(gpu::RECIPE_PRINCIPLED) &&
                (sceneHasSlot(gpu::TEXTURE_NORMAL) || sceneHasSlot(gpu::TEXTURE_CLEARCOAT_NORMAL));

@@ -6,10 +6,10 @@ LightSample hemisphereSample(const Frame frame, PathState path, vec2 u) {
     if (isLitFromBothSides(lobesOf(path.material))) {
         const float side = takesOtherSide(u) ? -1.0 : 1.0;
         const vec3 w = side * toWorld(makeFrame(shadingNormal(path.surface)), sampleUniformHemisphere(u));
-        return LightSample(w, true, w, vec3(4.0 * PI / float(frame.hemisphereSamples)), 0.0);
+        return LightSample(w, true, w, vec3(4.0 * PI / float(frame.hemisphereSamples)), 0.0, NOT_SKY);
     }
     const vec3 w = toWorld(makeFrame(shadingNormal(path.surface)), sampleUniformHemisphere(u));
-    return LightSample(w, true, w, vec3(2.0 * PI / float(frame.hemisphereSamples)), 0.0);
+    return LightSample(w, true, w, vec3(2.0 * PI / float(frame.hemisphereSamples)), 0.0, NOT_SKY);
 }
 
 /// A sample of one of the lights, with the probability of its choice and its share of the direct light in
@@ -20,6 +20,12 @@ LightSample lightSample(const Given given, inout PathState path, vec2 u, uint in
     if (bothSides && takesOtherSide(u)) lit = otherSide(path.surface);
     const PickedLight picked = pickLight(given.frame, litPoint(lit), shadingNormal(lit), index, u);
     LightSample light = sampleLight(given, lit, picked.light, picked.u, path.sampledEmitter);
+    if (findsSkyOnArrival()) {
+        path.sampledSky = light.sky;
+        path.departurePoint = litPoint(lit);
+        path.departureNormal = shadingNormal(lit);
+        path.departureTable = lit.table;
+    }
     if (bothSides) {
         light.radiance *= dot(shadingNormal(lit), light.direction) > 0.0 ? 2.0 : 0.0;
         light.inversePdf *= 2.0;
@@ -51,11 +57,19 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
         return;
     }
     float weight = 1.0;
+    if (findsSkyOnArrival()) path.bouncePdf = 0.0;
     if (combines(lobesOf(path.material))) {
         const float pdf = bouncePdfWithGap(given.gap, path.surface, lobesOf(path.material), f.pdf, light.direction);
-        weight = lightSampleWeight(light.inversePdf, pdf);
+        const bool isWeightedOnArrival = findsSkyOnArrival() && light.sky != NOT_SKY;
+        if (findsSkyOnArrival()) path.bouncePdf = pdf * light.inversePdf;
+        if (!isWeightedOnArrival) weight = lightSampleWeight(light.inversePdf, pdf);
         path.directValue *= weight;
         if (LIGHT_THROUGH_GLASS) path.glass.share *= weight;
+    }
+    if (RECORDS && findsSkyOnArrival() && light.sky != NOT_SKY) {
+        const FoundSky sky = skyFrom(given, path.departurePoint, path.departureNormal, path.departureTable, light.direction);
+        weight = lightSampleWeight(sky.inversePdf, path.bouncePdf);
+        path.recordedPdf /= sky.inversePdf;
     }
     if (RECORDS) recordLightSample(path, light, weight, true);
     const bool transmitted = isBehind(path.surface, light.direction);

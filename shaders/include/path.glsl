@@ -36,7 +36,17 @@ MaterialPoint askedPoint(PathState path) {
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
 }
 
-void finishShadowRay(inout PathState path) {
+/// What the ray that is done has found of the sky, if it has met nothing.
+FoundSky foundSky(const Given given, PathState path) {
+    FoundSky sky = NO_SKY;
+    const bool asks = path.phase == PHASE_PATH || findsSkyOnArrival() && isToLight(path.phase);
+    if (asks && path.ray.hitPrimitive == NO_PRIMITIVE)
+        sky = skyFrom(given, path.departurePoint, path.departureNormal, path.departureTable, directionToSky(path));
+    return sky;
+}
+
+void finishShadowRay(inout PathState path, FoundSky sky) {
+    if (findsSkyOnArrival() && path.sampledSky != NOT_SKY) path.directValue *= arrivedFrom(sky, path.sampledSky, path.bouncePdf);
     if (emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE)
         path.directValue *= emissionFactorOf(path.found);
     path.phase = PHASE_DIRECT;
@@ -78,11 +88,9 @@ void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float shar
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
-void arrive(const Given given, inout PathState path) {
+void arrive(const Given given, inout PathState path, FoundSky sky) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE, inMedium = scattersInMedium(path.ray);
     path.phase = PHASE_ENDED;
-    FoundSky sky = NO_SKY;
-    if (!hit) sky = skyFrom(given, path.departurePoint, path.departureNormal, path.departureTable, directionToSky(path));
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.filling.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
@@ -312,9 +320,10 @@ void finishSample(const Frame frame, inout PathState path) {
 bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
-    if (isToLight(path.phase)) finishShadowRay(path);
+    const FoundSky sky = foundSky(given, path);
+    if (isToLight(path.phase)) finishShadowRay(path, sky);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(given, path);
-    if (path.phase == PHASE_PATH) arrive(given, path);
+    if (path.phase == PHASE_PATH) arrive(given, path, sky);
     comeBackFromGlass(path);
     return true;
 }

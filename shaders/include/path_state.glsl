@@ -59,7 +59,7 @@ struct PathState {
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     Aim aim;              ///< of the bounce under way, with AIMS_BOUNCES
-    vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
+    vec3 departureNormal; ///< shading normal of the surface that the ray, a light sample's too, has left, for that weight
     vec3 departurePoint;  ///< likewise: where its light samples were taken (litPoint()), with PORTALS or LIGHT_THROUGH_GLASS
     uint departureTable;  ///< likewise: by which its light samples choose tiles of the environment (guide.glsl)
     ThroughGlass glass;   ///< with LIGHT_THROUGH_GLASS
@@ -77,6 +77,7 @@ struct PathState {
     /// Drawn with the path ray for where it ends. x, y: for the first light sample there; z: for roulette.
     vec3 arrivalNumbers;
     vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
+    uint sampledSky;  ///< LightSample::sky of the light sample under way; what it adds is per radiance of the sky
     MaterialPoint sampledEmitter; ///< where the light sample under way has gone (sampleLight())
 
     SplitPoint splitPoint;

@@ -32,7 +32,9 @@ LightSample sampleAmbientLight(const Given given, SurfacePoint s, LightRows rows
             inversePdf = 4.0 * PI;
         }
     }
-    return skySample(given, p, n, aimed, w, ambientRadianceOf(rows, w), inversePdf);
+    LightSample r = skySampleOnArrival(aimed, w);
+    if (PORTALS == 0u || !findsSkyOnArrival()) r = skySample(given, p, n, aimed, w, ambientRadianceOf(rows, w), inversePdf);
+    return r;
 }
 
 /// What a ray finds that meets nothing: the scene's ambient light or environment. It is the first in the
@@ -40,20 +42,33 @@ LightSample sampleAmbientLight(const Given given, SurfacePoint s, LightRows rows
 struct FoundSky {
     vec3 radiance;
     float inversePdf; ///< of the density with which light samples at the surface that it left take its direction
+    uint portal;      ///< that the direction belongs to (PortalDensity)
 };
 
-const FoundSky NO_SKY = FoundSky(vec3(0.0), 1.0);
+const FoundSky NO_SKY = FoundSky(vec3(0.0), 1.0, NO_PORTAL);
+
+float lightSampleWeight(float inversePdf, float bouncePdf); // mis.glsl
+
+/// By the light of a sample that is looked up on arrival: what light is per radiance.
+vec3 arrivedFrom(FoundSky sky, uint sampledSky, float bouncePdf) {
+    const bool isOwn = sampledSky == NO_PORTAL || sampledSky == sky.portal;
+    return isOwn ? sky.radiance * (sky.inversePdf * lightSampleWeight(sky.inversePdf, bouncePdf)) : vec3(0.0);
+}
 
 /// w: the ray's direction; p, normal and table: of the surface that it left (guideTable()).
 FoundSky skyFrom(const Given given, vec3 p, vec3 normal, uint table, vec3 w) {
     if (!HAS_AMBIENT) return NO_SKY;
-    FoundSky found = FoundSky(vec3(0.0), 1.0 / max(ambientPdf(normal, w), TINY));
+    FoundSky found = FoundSky(vec3(0.0), 1.0 / max(ambientPdf(normal, w), TINY), NO_PORTAL);
     const LightRows rows = given.sky;
     if (kindOf(rows) == LIGHT_AMBIENT) found.radiance = ambientRadianceOf(rows, w);
     if (HAS_ENVIRONMENT && kindOf(rows) == LIGHT_ENVIRONMENT) {
         const EnvironmentValue value = environmentFrom(rows, table, w);
-        found = FoundSky(value.radiance, 1.0 / max(value.pdf, TINY));
+        found = FoundSky(value.radiance, 1.0 / max(value.pdf, TINY), NO_PORTAL);
     }
-    if (PORTALS > 0u) found.inversePdf = skyInversePdf(given.frame, portalDensity(given.portals, p, normal, w), found.inversePdf);
+    if (PORTALS > 0u) {
+        const PortalDensity d = portalDensity(given.portals, p, normal, w);
+        found.inversePdf = skyInversePdf(given.frame, d, found.inversePdf);
+        found.portal = d.portal;
+    }
     return found;
 }

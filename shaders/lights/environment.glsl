@@ -157,10 +157,12 @@ LightSample sampleEnvironment(const Given given, SurfacePoint s, LightRows rows,
         place.y = placeBelowZenith(below);
     }
     vec3 direction = directionInEnvironment(e, place);
-    if (aimed.isAimed) {
-        direction = aimed.direction;
-        place = placeInEnvironment(e, direction);
+    if (aimed.isAimed) direction = aimed.direction;
+    LightSample r = skySampleOnArrival(aimed, direction);
+    if (!findsSkyOnArrival()) {
+        if (aimed.isAimed) place = placeInEnvironment(e, direction);
+        const EnvironmentValue value = environmentAt(e, colorOf(rows), s.table, place);
+        r = skySample(given, p, n, aimed, direction, value.radiance, value.pdf > 0.0 ? 1.0 / value.pdf : 0.0);
     }
-    const EnvironmentValue value = environmentAt(e, colorOf(rows), s.table, place);
-    return skySample(given, p, n, aimed, direction, value.radiance, value.pdf > 0.0 ? 1.0 / value.pdf : 0.0);
+    return r;
 }

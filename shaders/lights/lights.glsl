@@ -11,10 +11,12 @@ struct LightSample {
     vec3 direction;  ///< unit, to the light
     vec3 radiance;   ///< times the inverse of the density (solid angle); 0: nothing arrives
     float inversePdf; ///< steradians; 0: of what no bounce can find
+    uint sky; ///< what the sky brings is looked up on arrival: the portal that the sample aims at, or NO_PORTAL. Else NOT_SKY
 };
+const uint NO_PORTAL = 0xFFFFFFFFu, NOT_SKY = 0xFFFFFFFEu;
 
 const LightSample NO_LIGHT_SAMPLE =
-    LightSample(vec3(0.0, 0.0, 1.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0);
+    LightSample(vec3(0.0, 0.0, 1.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, NOT_SKY);
 
 /// LightEntry::light of the only light; it has no meaning where that cannot be a triangle, since its rows are known then.
 uint onlyLightReference() {

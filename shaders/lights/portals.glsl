@@ -61,7 +61,6 @@ struct PortalDensity {
     float pdf;    ///< by solid angle
     bool isAimed; ///< samples from here aim at any
 };
-const uint NO_PORTAL = 0xFFFFFFFFu;
 
 PortalDensity portalDensity(const Portals portals, vec3 p, vec3 n, vec3 w) {
     SeenPortal passed;
@@ -117,6 +116,11 @@ float skyInversePdf(const Frame frame, PortalDensity d, float inverseOwnPdf) {
     return 1.0 / max(mix(ownPdf, d.pdf, share), TINY);
 }
 
+/// One whose light is looked up on arrival (skyFrom()): of radiance 1 and density 1.
+LightSample skySampleOnArrival(PortalSample aimed, vec3 w) {
+    return LightSample(w, true, w, vec3(1.0), 1.0, aimed.isAimed ? aimed.portal : NO_PORTAL);
+}
+
 /// A sample of the sky at a surface, in direction w. A direction that was drawn for one portal and belongs to another
 /// brings nothing: then the densities are those of directions that belong to each.
 LightSample skySample(const Given given, vec3 p, vec3 n, PortalSample aimed, vec3 w, vec3 radiance, float inverseOwnPdf) {
@@ -127,5 +131,5 @@ LightSample skySample(const Given given, vec3 p, vec3 n, PortalSample aimed, vec
         inversePdf = skyInversePdf(given.frame, d, inverseOwnPdf);
         isOwn = !aimed.isAimed || d.portal == aimed.portal;
     }
-    return LightSample(w, true, w, isOwn ? radiance * inversePdf : vec3(0.0), inversePdf);
+    return LightSample(w, true, w, isOwn ? radiance * inversePdf : vec3(0.0), inversePdf, NOT_SKY);
 }

@@ -67,7 +67,7 @@
 
 LightSample sampleDirectionalLight(LightRows rows) {
     const vec3 w = directionalLight(rows).toLight;
-    return LightSample(w, true, w, colorOf(rows), 0.0);
+    return LightSample(w, true, w, colorOf(rows), 0.0, NOT_SKY);
 }
 
 /// The share of the way to a point light, at its end, where nothing shades: 2^-16, 256 roundings.

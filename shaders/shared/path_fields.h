@@ -91,13 +91,13 @@
     F(float, path.crossing.error, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
     F(bool, path.crossing.isUntold, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
     F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
-    F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | BY_LIGHT | AT_PAUSE) \
     F(uint, path.aim.place, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.aim.bsdfPdf, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.aim.weight, AIMS_BOUNCES, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
-    F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
-    F(vec3, path.departurePoint, PORTALS != 0u || LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
-    F(uint, path.departureTable, GUIDES_LIGHT, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | BY_LIGHT | AT_PAUSE) \
+    F(vec3, path.departurePoint, PORTALS != 0u || LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
+    F(uint, path.departureTable, GUIDES_LIGHT, BY_ALL | AT_PAUSE, BY_DEPART | BY_LIGHT | AT_PAUSE) \
     F(vec3, path.glass.direction, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
     F(bool, path.glass.isFromLit, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(uint, path.glass.panes, LIGHT_THROUGH_GLASS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
@@ -114,6 +114,7 @@
     F(float, path.filterWeight, samplesHaveWeights(), BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.directIndex, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
     F(vec3, path.directValue, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
+    F(uint, path.sampledSky, findsSkyOnArrival(), BY_FOLLOW, BY_LIGHT) \
     F(uint, path.sampledEmitter.material, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_ALL, BY_LIGHT) \

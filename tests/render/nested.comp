@@ -71,8 +71,8 @@ void gatherDirectLight(const Given given, inout PathState path, inout uint loopP
         const bool isShadowRay = path.phase == PHASE_SHADOW;
         if (isShadowRay || path.phase == PHASE_HEMISPHERE) {
             traceToTheEnd(given, path, loopPasses);
-            if (isShadowRay) finishShadowRay(path);
-            else finishHemisphereRay(given.frame, path);
+            if (isShadowRay) finishShadowRay(path, foundSky(given, path));
+            else finishHemisphereRay(given, path);
         }
         ++loopPasses;
     }
@@ -87,7 +87,7 @@ void followRay(const Given given, inout PathState path, inout uint loopPasses) {
     depart(given, path);
     if (path.phase == PHASE_PATH) {
         traceToTheEnd(given, path, loopPasses);
-        arrive(given, path);
+        arrive(given, path, foundSky(given, path));
         if (INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT) {
             gatherDirectLight(given, path, loopPasses);
             decideToGoOn(given, path);
@@ -125,6 +125,9 @@ void main() {
     given.grid = pictureGrid(frame);
     given.onlyLight = findOnlyLight();
     given.gap = findGap(frame, given.onlyLight);
+    for (uint i = 0u; i < PORTALS; ++i)
+        given.portals.all[i] = portalOf(frame, i);
+    if (HAS_AMBIENT) given.sky = fetchLightRows(0u);
     endTraversal(path.ray);
     path.rayCount = 0u;
     uint loopPasses = 0u; // llvmpipe ends all loops of a group at 65,535
