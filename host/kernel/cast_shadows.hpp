@@ -20,4 +20,8 @@ std::optional<ShadowMap> castShadows(const Scene& scene, const GpuScene& packed,
 std::optional<ShadowMap> shadowsThatPay(const Scene& scene, const GpuScene& packed,
                                         const Camera& camera);
 
+/// Whether a place is in shadow for certain, as the kernel has it
+/// (shaders/include/shadow_map.glsl).
+bool isInShadow(const ShadowMap& map, const glm::vec3& origin, const glm::vec3& direction);
+
 } // namespace stromboli

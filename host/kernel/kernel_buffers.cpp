@@ -101,7 +101,8 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
     if (aimsBounces(scene, estimator))
         plans.push_back({"lit cells", scene.lit->rowCount() * sizeof(Row), rows});
     if (looksAtShadowMap(scene, estimator))
-        plans.push_back({"shadow map", size_t(gpu::SHADOW_MAP_SIDE) * gpu::SHADOW_MAP_SIDE * 4, rows});
+        plans.push_back(
+            {"shadow map", size_t(gpu::SHADOW_MAP_SIDE) * gpu::SHADOW_MAP_SIDE * 4, rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
     return plans;

@@ -20,7 +20,7 @@ Emission emissionOf(LightRows l) { return Emission(colorOf(l), hasFlag(l, LIGHT_
 
 /// Completes a sample taken uniformly on an area: radiance * area * cos / distance^2.
 LightSample areaSample(SurfacePoint s, vec3 p, float pError, vec3 n, float area, Emission e) {
-    LightSample r;
+    LightSample r = NO_LIGHT_SAMPLE;
     const vec3 from = litPoint(s), d = p - from;
     const float distance2 = dot(d, d);
     const float inverseDistance = inversesqrt(distance2);
@@ -39,7 +39,7 @@ LightSample areaSample(SurfacePoint s, vec3 p, float pError, vec3 n, float area,
 /// in the light's own plane gets none.
 LightSample angleSample(SurfacePoint s, vec3 p, float pError, vec3 n, float z, float angle,
                         Emission e) {
-    LightSample r;
+    LightSample r = NO_LIGHT_SAMPLE;
     const vec3 from = litPoint(s), d = p - from;
     const float distance2 = dot(d, d);
     r.direction = d * inversesqrt(max(distance2, TINY));
@@ -119,7 +119,7 @@ LightSample sampleSphereLight(SurfacePoint s, LightRows rows, vec2 u) {
     // The near intersection of the direction with the sphere, put back on its surface.
     const float t = distance * cosine - sqrt(max(l.radius * l.radius - distance2 * sin2, 0.0));
     const vec3 n = unit(from + t * w - l.center);
-    LightSample r;
+    LightSample r = NO_LIGHT_SAMPLE;
     r.direction = w;
     r.infinite = false;
     const vec3 p = l.center + l.radius * n, d = p - from;

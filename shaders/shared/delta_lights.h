@@ -76,7 +76,7 @@ const float POINT_LIGHT_GAP = 1.52587890625e-5;
 
 LightSample samplePointLight(SurfacePoint s, LightRows rows) {
     const PointLight l = pointLight(rows);
-    LightSample r;
+    LightSample r = NO_LIGHT_SAMPLE;
     const vec3 d = l.position - litPoint(s);
     const float distance2 = dot(d, d), distance = sqrt(distance2);
     r.inversePdf = 0.0;
@@ -102,7 +102,7 @@ float angleOf(float cosine) { return 2.0 * atan(sqrt(max(1.0 - cosine, 0.0) / (1
 
 LightSample sampleProjector(SurfacePoint s, LightRows rows) {
     const ProjectorLight l = projectorLight(rows);
-    LightSample r;
+    LightSample r = NO_LIGHT_SAMPLE;
     const vec3 d = l.position - litPoint(s);
     const float distance2 = dot(d, d);
     r.inversePdf = 0.0;

@@ -115,10 +115,6 @@ TEST(OccludedArea, AxesFollowTheEdges) {
 
 // --- Occluders -----------------------------------------------------------------------------------
 
-GpuScene packed(const Scene& scene) {
-    return packScene(scene, buildWideBvh(scene));
-}
-
 /// A long way from the origin, where coordinates are rounded more.
 Scene movedBy(Scene scene, const glm::vec3& way) {
     for (glm::vec3& p : scene.positions)

@@ -3,6 +3,7 @@
 
 #include "host/core/random.hpp"
 #include "host/film/film.hpp"
+#include "host/kernel/gpu_scene.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/generate/scene_maker.hpp"
 
@@ -43,6 +44,10 @@ inline Scene roomWithWindow(float window) {
     b.quad({-1, -h, h}, {0, window, 0}, {0, 0, 1 - h}, white);
     b.scene.environment = roughSky();
     return b.scene;
+}
+
+inline GpuScene packed(const Scene& scene) {
+    return packScene(scene, buildWideBvh(scene));
 }
 
 /// From a corner of that room to its floor, the window on the left.
