@@ -181,7 +181,7 @@
         scene.lights.environment->rows.reachPoles, own, \
       "environment whose rows reach the poles", flag, "rows of texels whose middles are the zenith and the nadir") \
     F(69, bool, SHADOW_MAP, false, looksAtShadowMap(scene, settings), own, \
-      "shadow map", flag, "places that a sun reaches for certain not, looked up before a light sample's ray is traced")
+      "shadow map", flag, "places that a sun surely does not reach, looked up before a light sample's ray is traced")
 
 #define SPEC_COUNT 70
 

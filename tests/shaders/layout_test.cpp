@@ -267,7 +267,7 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::LightHeader) + sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) +
         sizeof(gpu::LightNode) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
         sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + 4 + 4 + (4 + 4 + 8) + 136 + 12 + 4 + 16 + 8u);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + 4 + 4 + (4 + 4 + 8) + 308 + 12 + 4 + 16 + 8u);
 }
 
 } // namespace
