@@ -24,17 +24,16 @@ bool servesForLong(const KernelFeatures& f) {
     constexpr uint32_t kPlain = gpu::CLOSURE_BASE | gpu::CLOSURE_INTERFACE | gpu::INTERFACE_BITS |
                                 gpu::INTERFACE_REFRACTS | gpu::FACETS_ARE_BECKMANN |
                                 gpu::LOBE_MASK | gpu::HAS_BASE_COLOR;
-    return (f[SPEC_CLOSURES] & ~kPlain) != 0 ||
-           (f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_PROJECTOR) != 0 ||
-           f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_HAS_LENS] != 0 ||
-           f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX || f[SPEC_FILTER_EXTRA] != 0 ||
-           f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_FLAT_TERMINATOR] != 0 ||
-           f[SPEC_TEXTURE_SLOTS] != 0 || f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 ||
-           f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 ||
-           f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_HAS_BLENDS] != 0 || f[SPEC_MEDIA] != 0 ||
-           f[SPEC_RELIEF_RULES] != 0 || f[SPEC_HAS_PLACEMENTS] != 0 ||
-           f[SPEC_HAS_DISPERSION] != 0 || f[SPEC_HAS_IRIDESCENCE] != 0 ||
-           f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
+    return (f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_PROJECTOR) != 0 ||
+           f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS] ||
+           f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX || (f[SPEC_CLOSURES] & ~kPlain) != 0 ||
+           f[SPEC_HAS_IRIDESCENCE] != 0 || f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_MEDIA] != 0 ||
+           f[SPEC_FLAT_TERMINATOR] != 0 || f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_HAS_LENS] != 0 ||
+           f[SPEC_HAS_DISPERSION] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 || f[SPEC_HAS_ALPHA] != 0 ||
+           f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
+           f[SPEC_TEXTURE_SLOTS] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_FILTER_EXTRA] != 0 ||
+           f[SPEC_RELIEF_RULES] != 0 || f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_TEXEL_KINDS] != 0 ||
+           f[SPEC_HAS_BLENDS] != 0 || f[SPEC_ATTRIBUTES] != 0;
 }
 
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
@@ -265,17 +264,17 @@ bool mayLookAtOccluders(const GpuScene& scene, const Estimator& settings) {
 }
 
 uint32_t occludersLookedAt(const GpuScene& scene, const Estimator& settings) {
-    const bool looks = scene.looksAtOccluders.value_or(false);
-    return looks && mayLookAtOccluders(scene, settings) ? gpu::MOST_OCCLUDERS : 0;
+    const bool looks = scene.looksAtOccluders == true && mayLookAtOccluders(scene, settings);
+    return looks ? gpu::MOST_OCCLUDERS : 0;
 }
 
 bool mayLookAtShadowMap(const GpuScene& scene, const Estimator& settings) {
-    return (lightKinds(scene, settings) & 1u << gpu::LIGHT_DIRECTIONAL) != 0 &&
-           !lightsThroughGlass(scene, settings);
+    const uint32_t suns = lightKinds(scene, settings) & 1u << gpu::LIGHT_DIRECTIONAL;
+    return suns != 0 && mayLookAtOccluders(scene, settings);
 }
 
 bool looksAtShadowMap(const GpuScene& scene, const Estimator& settings) {
-    return scene.looksAtShadowMap.value_or(false) && mayLookAtShadowMap(scene, settings);
+    return scene.looksAtShadowMap == true && mayLookAtShadowMap(scene, settings);
 }
 
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
@@ -284,8 +283,7 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
     // That of normals asks for what is there, and for no material.
     estimator.integrator = what == Seeing::Coverage ? Integrator::Normals : Integrator::Path;
     estimator.branches = 1;
-    estimator.gapProposal = false;
-    estimator.guidesLight = estimator.aimsAtPortals = false;
+    estimator.gapProposal = estimator.guidesLight = estimator.aimsAtPortals = false;
     estimator.roulette.mode = Roulette::Mode::None;
     KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
     for (const KernelConstant ofLight :
