@@ -1,6 +1,6 @@
 // A shadow map of a sun: of each cell of a plane across its direction, up to which height over that plane no place is lit, for
 // certain (docs/theory/estimator.md, "Shadow map"). The ray of a light sample from there would meet a surface: it need not be
-// traced. host/kernel/shadow_map.hpp makes the map.
+// traced. host/kernel/cast_shadows.hpp makes the map.
 
 ShadowMap shadowMapOf(const Frame frame) {
     return ShadowMap(frame.shadowAcross, frame.shadowAlong, frame.shadowTowards, frame.shadowMap);
