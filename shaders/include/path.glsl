@@ -39,8 +39,7 @@ MaterialPoint askedPoint(PathState path) {
 /// What the ray that is done has found of the sky, if it has met nothing.
 FoundSky foundSky(const Given given, PathState path) {
     FoundSky sky = NO_SKY;
-    const bool asks = path.phase == PHASE_PATH || findsSkyOnArrival() && isToLight(path.phase);
-    if (asks && path.ray.hitPrimitive == NO_PRIMITIVE)
+    if (path.ray.hitPrimitive == NO_PRIMITIVE)
         sky = skyFrom(given, path.departurePoint, path.departureNormal, path.departureTable, directionToSky(path));
     return sky;
 }
@@ -88,8 +87,11 @@ void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float shar
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
-void arrive(const Given given, inout PathState path, FoundSky sky) {
+/// found: of the sky, where that is looked up for light samples, too.
+void arrive(const Given given, inout PathState path, FoundSky found) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE, inMedium = scattersInMedium(path.ray);
+    FoundSky sky = found;
+    if (!findsSkyOnArrival()) sky = foundSky(given, path);
     path.phase = PHASE_ENDED;
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
@@ -320,7 +322,8 @@ void finishSample(const Frame frame, inout PathState path) {
 bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
-    const FoundSky sky = foundSky(given, path);
+    FoundSky sky = NO_SKY;
+    if (findsSkyOnArrival() && isTracing(path.phase)) sky = foundSky(given, path);
     if (isToLight(path.phase)) finishShadowRay(path, sky);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(given, path);
     if (path.phase == PHASE_PATH) arrive(given, path, sky);
