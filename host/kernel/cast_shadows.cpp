@@ -62,7 +62,7 @@ class SunView {
         }
     }
 
-    bool isPlane() const { return cell_[0] > 0 && cell_[1] > 0; }
+    bool hasArea() const { return cell_[0] > 0 && cell_[1] > 0; }
     const glm::dvec3& towards() const { return towards_; }
     /// Of a length, in columns and rows.
     glm::dvec2 inCells(double length) const { return {length / cell_[0], length / cell_[1]}; }
@@ -178,11 +178,10 @@ std::vector<Row> shadowsOf(const Scene& scene, const SunView& view) {
 } // namespace
 
 bool isInShadow(const ShadowMap& map, const glm::vec3& origin, const glm::vec3& direction) {
-    const glm::vec3 aside = direction - map.towards;
     const auto at = [&](const glm::vec4& row) { return glm::dot(glm::vec3(row), origin) + row.w; };
     const float x = at(map.across), y = at(map.along);
     const bool isWithin = std::min(x, y) >= 0 && std::max(x, y) < float(gpu::SHADOW_MAP_SIDE);
-    if (!isWithin || !(glm::dot(aside, aside) <= map.leastAside)) return false;
+    if (!isWithin || direction != map.towards) return false;
     const size_t cell = size_t(y) * gpu::SHADOW_MAP_SIDE + size_t(x);
     return glm::dot(map.towards, origin) < std::bit_cast<float>(map.heights[cell / 4][cell % 4]);
 }
@@ -202,8 +201,8 @@ std::optional<ShadowMap> castShadows(const Scene& scene, const GpuScene& packed,
     });
     if (places.empty()) return {};
     const SunView view(*towards, places);
-    if (!view.isPlane()) return {};
-    ShadowMap map{*towards, view.row(0), view.row(1), 0, shadowsOf(scene, view)};
+    if (!view.hasArea()) return {};
+    ShadowMap map{*towards, view.row(0), view.row(1), shadowsOf(scene, view)};
     const auto dark = std::ranges::count_if(
         places, [&](const Place& p) { return isInShadow(map, glm::vec3(p.point), *towards); });
     if (double(dark) < leastShare * double(places.size())) return {};

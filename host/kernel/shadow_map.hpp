@@ -13,7 +13,6 @@ namespace stromboli {
 struct ShadowMap {
     glm::vec3 towards{0};          ///< unit, to the light; heights are along it
     glm::vec4 across{0}, along{0}; ///< column and row of a place p: dot(xyz, p) + w
-    float leastAside = 0;          ///< square of how far a direction is from `towards`, at most
     std::vector<Row> heights;      ///< of the cells, as floats, row by row
 };
 

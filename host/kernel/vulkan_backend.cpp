@@ -54,10 +54,11 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.leastFall = leastFall(scene.occluders);
     std::ranges::copy(occluderRows(scene.occluders), std::begin(f.occluders));
     std::ranges::copy(portalRows(scene.portals.all), std::begin(f.portals));
-    const ShadowMap shadows = scene.shadowMap.value_or(ShadowMap{.leastAside = -1});
-    f.shadowAcross = shadows.across;
-    f.shadowAlong = shadows.along;
-    f.shadowTowards = glm::vec4(shadows.towards, shadows.leastAside);
+    if (scene.shadowMap) {
+        f.shadowAcross = scene.shadowMap->across;
+        f.shadowAlong = scene.shadowMap->along;
+        f.shadowTowards = scene.shadowMap->towards;
+    }
     f.cameraMedium =
         camera.medium == kNoMedium ? gpu::NO_MEDIUM : scene.mediumRow.at(camera.medium);
     return f;

@@ -53,7 +53,8 @@ struct Portals {
 
 /// What a sun does not reach (shadow_map.glsl).
 struct ShadowMap {
-    vec4 across, along, towards; ///< as Frame has them
+    vec4 across, along; ///< as Frame has them,
+    vec3 towards;       ///< likewise
     uint firstRow;
 };
 

@@ -8,11 +8,10 @@ ShadowMap shadowMapOf(const Frame frame) {
 
 /// Whether the ray of a light sample is stopped for certain. direction: unit, to what is infinitely far.
 bool isInShadow(const ShadowMap map, vec3 origin, vec3 direction) {
-    const vec3 aside = direction - map.towards.xyz;
     const float x = atPoint(map.across, origin), y = atPoint(map.along, origin);
     // Ordered comparisons, which are false for NaN.
     const bool isWithin = min(x, y) >= 0.0 && max(x, y) < float(SHADOW_MAP_SIDE);
     const uint cell = isWithin ? uint(y) * SHADOW_MAP_SIDE + uint(x) : 0u;
     const float dark = uintBitsToFloat(componentOf(ROW(guideRows, map.firstRow + (cell >> 2u)), cell & 3u));
-    return isWithin && dot(aside, aside) <= map.towards.w && dot(map.towards.xyz, origin) < dark;
+    return isWithin && direction == map.towards && dot(map.towards, origin) < dark;
 }

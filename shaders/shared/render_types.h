@@ -47,10 +47,10 @@ struct Frame {
     float portalShare; ///< of light samples to the sky that aim at portals (lights/portals.glsl)
     uint litCells; ///< that bounces aim at, with AIMS_BOUNCES (aimed_bounces.glsl)
     float leastFall; ///< of a ray that crosses an occluder: its square over that of the ray's length
-    uint shadowMap; ///< its first row in the buffer of guided samples, with SHADOW_MAP
-    uint unused;
+    uint unused0, unused1;
     vec4 shadowAcross, shadowAlong; ///< of the shadow map's cells: column and row of a point p are dot(xyz, p) + w
-    vec4 shadowTowards; ///< to the light: unit, the square of how far a direction is from that, at most
+    vec3 shadowTowards; ///< to its light, unit; 0: there is no map
+    uint shadowMap; ///< its first row in the buffer of guided samples
     vec4 portals[PORTAL_ROWS * MOST_PORTALS];
     vec4 occluders[OCCLUDER_ROWS * MOST_OCCLUDERS];
 };

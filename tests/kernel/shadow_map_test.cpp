@@ -1,61 +1,37 @@
 // Light samples that a shadow map stops without a ray: the same picture with fewer rays.
 #include "host/kernel/cast_shadows.hpp"
-#include "host/kernel/light_table.hpp"
-#include "host/render/sampling_session.hpp"
-#include "tests/kernel/window_room.hpp"
-#include "tests/render/device_render.hpp"
-#include "tests/support/device_fixture.hpp"
+#include "host/kernel/light_notes.hpp"
+#include "tests/kernel/stopped_light.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace stromboli {
 namespace {
 
 using namespace test;
 
-class LightInShadow : public DeviceTest {
+class LightInShadow : public StoppedLight {
   protected:
-    LightInShadow() {
-        settings_.area.width = 48, settings_.area.height = 36;
-        settings_.budget.mostSamplesPerPixel = 16;
-        settings_.estimator.maxBounces = 3;
-    }
-
-    struct Picture {
-        Film film;
-        uint64_t rays = 0;
-    };
-
     Picture pictureOf(const Scene& loaded, bool looks, const KernelTuning& tuning = {}) {
-        GpuScene scene =
-            packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
-        if (looks) scene.shadowMap = castShadows(loaded, scene, kRoomView);
-        EXPECT_EQ(scene.shadowMap.has_value(), looks);
-        scene.looksAtShadowMap = looks;
-        VulkanBackend backend(testDevice(), scene, kRoomView, settings_, tuning);
-        EXPECT_EQ(backend.features()[SPEC_SHADOW_MAP] != 0, looks);
-        Picture picture;
-        picture.film = render(backend, settings_);
-        picture.rays = backend.counters().rays;
-        return picture;
+        const auto castThem = [&](GpuScene& scene) {
+            if (looks) scene.shadowMap = castShadows(loaded, scene, kRoomView);
+            EXPECT_EQ(scene.shadowMap.has_value(), looks);
+            scene.looksAtShadowMap = looks;
+        };
+        return StoppedLight::pictureOf(loaded, castThem, SPEC_SHADOW_MAP, looks, tuning);
     }
 
     static Scene withSun(Scene scene) {
-        Light sun;
-        sun.kind = LightKind::Directional;
-        sun.direction = glm::normalize(glm::vec3(1, -0.4f, 0.2f));
-        sun.color = glm::vec3(3);
-        scene.lights.push_back(sun);
+        scene.lights.push_back(sun());
+        scene.lights.back().color = glm::vec3(3);
         return scene;
     }
-
-    RenderSettings settings_;
 };
 
-/// By the light of the sun alone, beside a sky, beside a sky that light samples are guided to or
-/// aim at by a portal in the same buffer, and beside lamps and another sun.
+/// By the light of the sun alone, beside a sky, and beside lamps and another sun.
 TEST_F(LightInShadow, IsThePictureWithFewerRays) {
     Scene alone = withSun(roomWithWindow(1));
     alone.environment.reset();
@@ -63,21 +39,35 @@ TEST_F(LightInShadow, IsThePictureWithFewerRays) {
     withLamps.lights.push_back(withLamps.lights.front());
     withLamps.lights.back().direction = glm::normalize(glm::vec3(1, -0.1f, -0.3f));
     const std::vector<Scene> scenes = {alone, withSun(roomWithWindow(1)), withLamps};
-    for (size_t i = 0; i < scenes.size(); ++i) {
-        const Picture plain = pictureOf(scenes[i], false), with = pictureOf(scenes[i], true);
-        EXPECT_TRUE(sameStatistics(plain.film, with.film)) << "scene " << i;
-        EXPECT_LT(with.rays, plain.rays - plain.rays / 50) << "scene " << i;
-    }
+    for (size_t i = 0; i < scenes.size(); ++i)
+        expectTheSameWithFewerRays(pictureOf(scenes[i], false), pictureOf(scenes[i], true),
+                                   "scene " + std::to_string(i));
 }
 
-/// A camera that sees nothing has no map, and looks at none.
+/// The map lies behind what guides light samples to the sky.
+TEST_F(LightInShadow, IsThePictureBesideAGuide) {
+    const Scene scene = withSun(roomWithWindow(1));
+    const auto guided = [&](bool looks) {
+        return StoppedLight::pictureOf(
+            scene,
+            [&](GpuScene& packed) {
+                packed.guide = learnLightGuide(noteLightSamples(scene, packed, kRoomView, false),
+                                               *packed.lights.environment);
+                if (looks) packed.shadowMap = castShadows(scene, packed, kRoomView);
+                packed.looksAtShadowMap = looks;
+            },
+            SPEC_SHADOW_MAP, looks, {});
+    };
+    settings_.estimator.guidesLight = true;
+    expectTheSameWithFewerRays(guided(false), guided(true), "guided");
+}
+
+/// A camera that sees nothing has no map, and its kernel looks at none.
 TEST_F(LightInShadow, IsThePictureWhereThereIsNoMap) {
     const Scene scene = withSun(roomWithWindow(1));
-    GpuScene packed = packScene(scene, buildWideBvh(scene), lightSelection(settings_.estimator));
-    packed.looksAtShadowMap = true;
-    VulkanBackend backend(testDevice(), packed, kRoomView, settings_, {});
-    EXPECT_NE(backend.features()[SPEC_SHADOW_MAP], 0u);
-    EXPECT_TRUE(sameStatistics(pictureOf(scene, false).film, render(backend, settings_)));
+    const Picture without = StoppedLight::pictureOf(
+        scene, [](GpuScene& packed) { packed.looksAtShadowMap = true; }, SPEC_SHADOW_MAP, true, {});
+    EXPECT_TRUE(sameStatistics(pictureOf(scene, false).film, without.film));
 }
 
 TEST_F(LightInShadow, HasTheSameBytesHoweverTheWorkIsCut) {

@@ -102,8 +102,8 @@ void putFrame() {
     put(frame.lightSamples), put(frame.branches), put(frame.ambientLight);
     put(frame.lightsInGroup0), put(frame.lightsInGroup1), put(frame.lightsInGroup2);
     put(frame.lensRadius), put(frame.focusDistance), put(frame.cameraMedium);
-    put(frame.portalShare), put(frame.litCells), put(frame.leastFall), put(frame.shadowMap), put(frame.unused);
-    put(frame.shadowAcross), put(frame.shadowAlong), put(frame.shadowTowards);
+    put(frame.portalShare), put(frame.litCells), put(frame.leastFall), put(frame.unused0), put(frame.unused1);
+    put(frame.shadowAcross), put(frame.shadowAlong), put(frame.shadowTowards), put(frame.shadowMap);
     for (uint i = 0u; i < PORTAL_ROWS * MOST_PORTALS; ++i)
         put(frame.portals[i]);
     for (uint i = 0u; i < OCCLUDER_ROWS * MOST_OCCLUDERS; ++i)

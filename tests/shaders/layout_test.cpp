@@ -185,14 +185,14 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         gpu::Frame f = patterns.several<gpu::Frame>()[1];
         f.lightCount = 1; // where the table's nodes and columns begin: expectTable()
         shader.setOne(BINDING_FRAME, f);
-        expected_.structure("Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp,
-                            f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
-                            f.farDistance, f.gapWidth, f.seed, f.minBounce, f.maxBounces,
-                            f.terminationProbability, f.lightCount, f.areaLights,
-                            f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight,
-                            f.lightsInGroup0, f.lightsInGroup1, f.lightsInGroup2, f.lensRadius,
-                            f.focusDistance, f.cameraMedium, f.portalShare, f.litCells, f.leastFall,
-                            f.shadowMap, f.unused, f.shadowAcross, f.shadowAlong, f.shadowTowards);
+        expected_.structure(
+            "Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp, f.firstSample,
+            f.cameraBack, f.keepsValue, f.nearDistance, f.farDistance, f.gapWidth, f.seed,
+            f.minBounce, f.maxBounces, f.terminationProbability, f.lightCount, f.areaLights,
+            f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight, f.lightsInGroup0,
+            f.lightsInGroup1, f.lightsInGroup2, f.lensRadius, f.focusDistance, f.cameraMedium,
+            f.portalShare, f.litCells, f.leastFall, f.unused0, f.unused1, f.shadowAcross,
+            f.shadowAlong, f.shadowTowards, f.shadowMap);
         for (const glm::vec4& row : f.portals)
             expected_.structure("Frame, portals", row);
         for (const glm::vec4& row : f.occluders)
