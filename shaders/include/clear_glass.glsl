@@ -45,9 +45,9 @@ bool meets(vec3 corner, vec3 edgeA, vec3 edgeB, bool isTriangle, vec3 w) {
 }
 
 /// Whether a light sample from p goes to this light, of which `place` is a part, in direction w, were there no glass.
-bool leadsTo(const OnlyLight onlyLight, PlacedPrimitive place, uint light, vec3 p, vec3 w) {
+bool leadsTo(const Given given, PlacedPrimitive place, uint light, vec3 p, vec3 w) {
     if (isTriangleLight(light)) return meets(place.v0 - p, place.v1 - place.v0, place.v2 - place.v0, true, w);
-    const LightRows rows = fetchLight(onlyLight, light);
+    const LightRows rows = rowsOfLight(given, light);
     bool leads = false;
     if (isLight(kindOf(rows), LIGHT_QUAD)) {
         const QuadLight q = quadLight(rows);

@@ -18,7 +18,7 @@ LightSample lightSample(const Given given, inout PathState path, vec2 u, uint in
     SurfacePoint lit = path.surface;
     const bool bothSides = isLitFromBothSides(lobesOf(path.material));
     if (bothSides && takesOtherSide(u)) lit = otherSide(path.surface);
-    const PickedLight picked = pickLight(given.frame, litPoint(lit), shadingNormal(lit), index, u);
+    const PickedLight picked = pickLight(given, litPoint(lit), shadingNormal(lit), index, u);
     LightSample light = sampleLight(given, lit, picked.light, picked.u, path.sampledEmitter);
     if (findsSkyOnArrival()) {
         path.sampledSky = light.sky;

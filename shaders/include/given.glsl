@@ -18,6 +18,29 @@ struct OnlyLight {
     vec3 normal; ///< LIGHT_QUAD
 };
 
+/// A node of the light tree as weights are asked of it (lights/light_tree.glsl).
+struct LightBounds {
+    vec3 center;  ///< of a sphere that holds the lights, if they are not infinitely far,
+    float radius; ///< and its radius
+    float power;  ///< as LightNode has it
+    vec3 axis;    ///< unit: of the cone of their normals, or directions of travel,
+    vec2 spread;  ///< and cosine and sine of its half angle
+    uint flags;   ///< LIGHT_NODE_
+};
+
+/// The root of a group of lights. Where each group is a single light (holdsAllLights()), all that is read of it.
+struct LightRoot {
+    LightBounds bounds;
+    uint number; ///< of its light
+    LightEntry entry;
+    LightRows rows; ///< if it is no triangle
+};
+
+/// LIGHT_CHOICE_TREE, of several groups.
+struct LightRoots {
+    LightRoot all[LIGHT_GROUP_COUNT];
+};
+
 /// For the gap proposal (gap_proposal.glsl): the light, from the side that is not the gap's, from which one looks into
 /// the gap.
 struct Gap {
@@ -62,6 +85,7 @@ struct Given {
     Frame frame;
     PictureGrid grid;
     OnlyLight onlyLight;
+    LightRoots roots;
     Gap gap;
     Occluders occluders;
     ShadowMap shadow;

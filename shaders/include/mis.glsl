@@ -41,16 +41,16 @@ float foundLightWeight(const Given given, Traversal t, vec3 normal, FoundSky sky
         number = place.light;
     }
     if (number == NO_LIGHT) return straight.isSample ? 0.0 : 1.0;
-    const LightEntry entry = fetchLightEntry(number);
+    const LightEntry entry = lightEntry(given.roots, number);
     if (LIGHT_THROUGH_GLASS && straight.isBehindGlass) {
         bool leads = straight.keepsDirection;
-        if (hit) leads = leadsTo(given.onlyLight, place, entry.light, t.origin, t.direction);
+        if (hit) leads = leadsTo(given, place, entry.light, t.origin, t.direction);
         if (straight.isSample) return leads && (LIGHT_CHOICE == LIGHT_CHOICE_ONE || entry.light == straight.light) ? 1.0 : 0.0;
         if (!leads) return 1.0;
     }
-    const float probability = lightProbability(given.frame, entry, t.origin, normal);
+    const float probability = lightProbability(given, entry, t.origin, normal);
     if (!(probability > 0.0)) return 1.0;
     if (LIGHT_THROUGH_GLASS && bouncePdf == 0.0) return 0.0;
-    const float inversePdf = hit ? areaLightInversePdf(given.onlyLight, t, place, entry.light) : sky.inversePdf;
+    const float inversePdf = hit ? areaLightInversePdf(given, t, place, entry.light) : sky.inversePdf;
     return bounceWeight(inversePdf / probability, bouncePdf);
 }

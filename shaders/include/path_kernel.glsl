@@ -52,6 +52,7 @@ Given findGiven() {
     given.frame = frames[firstPlace()];
     given.grid = pictureGrid(given.frame);
     given.onlyLight = findOnlyLight();
+    given.roots = findRoots(given.frame);
     given.gap = findGap(given.frame, given.onlyLight);
     for (uint i = 0u; i < OCCLUDERS; ++i)
         given.occluders.all[i] = occluderOf(frames[dispatches[0].framePlace], i);

@@ -150,10 +150,10 @@ float sphereInversePdf(Traversal t, SphereLight l) {
 /// Inverse of the density (steradians) with which a sample of this light, taken from where ray t starts,
 /// goes to the point that t has hit; as in sampleLight(). The ray starts within rounding of where light
 /// samples start; the MIS weights of both add up to 1 but for that share of the light's distance.
-float areaLightInversePdf(const OnlyLight onlyLight, Traversal t, PlacedPrimitive place, uint light) {
+float areaLightInversePdf(const Given given, Traversal t, PlacedPrimitive place, uint light) {
     if (isTriangleLight(light))
         return triangleAngle(place.v0 - t.origin, place.v1 - place.v0, place.v2 - place.v0);
-    const LightRows rows = fetchLight(onlyLight, light);
+    const LightRows rows = rowsOfLight(given, light);
     if (isLight(kindOf(rows), LIGHT_QUAD)) {
         const QuadLight q = quadLight(rows);
         const vec3 v0 = q.corner - t.origin;

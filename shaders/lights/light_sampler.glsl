@@ -22,33 +22,33 @@ uint pickByAlias(const Frame frame, inout ChoiceNumber c) {
 
 /// The light of sample number `index` at a surface with unit normal n, whose point that light leaves from
 /// is p. u: two numbers in [0, 1), multiples of 2^-24; the choice uses up digits of the first.
-PickedLight pickLight(const Frame frame, vec3 p, vec3 n, uint index, vec2 u) {
+PickedLight pickLight(const Given given, vec3 p, vec3 n, uint index, vec2 u) {
     if (LIGHT_CHOICE == LIGHT_CHOICE_ONE) return PickedLight(onlyLightReference(), 1.0, u);
     if (LIGHT_CHOICE == LIGHT_CHOICE_EACH) {
         // Each light in turn, LIGHT_SAMPLES times; delta lights, which are behind the others, once.
-        const uint sampled = frame.areaLights * LIGHT_SAMPLES;
-        const uint number = index < sampled ? index / LIGHT_SAMPLES : frame.areaLights + index - sampled;
+        const uint sampled = given.frame.areaLights * LIGHT_SAMPLES;
+        const uint number = index < sampled ? index / LIGHT_SAMPLES : given.frame.areaLights + index - sampled;
         return PickedLight(fetchLightEntry(number).light, 1.0, u);
     }
     ChoiceNumber c = choiceNumber(u);
     float probability;
     uint number;
     if (LIGHT_CHOICE == LIGHT_CHOICE_TREE)
-        number = walkLightTree(frame, p, n, false, LightEntry(0u, 0u, 0.0, 0u), c, probability);
+        number = walkLightTree(given, p, n, false, LightEntry(0u, 0u, 0.0, 0u), c, probability);
     else
-        number = pickByAlias(frame, c);
-    const LightEntry entry = fetchLightEntry(number);
+        number = pickByAlias(given.frame, c);
+    const LightEntry entry = lightEntry(given.roots, number);
     if (LIGHT_CHOICE != LIGHT_CHOICE_TREE) probability = entry.probability;
     return PickedLight(entry.light, probability, vec2(restOf(c), u.y));
 }
 
 /// The probability with which pickLight() takes this light.
-float lightProbability(const Frame frame, LightEntry entry, vec3 p, vec3 n) {
+float lightProbability(const Given given, LightEntry entry, vec3 p, vec3 n) {
     if (LIGHT_CHOICE == LIGHT_CHOICE_ONE || LIGHT_CHOICE == LIGHT_CHOICE_EACH) return 1.0;
     if (LIGHT_CHOICE != LIGHT_CHOICE_TREE) return entry.probability;
     ChoiceNumber none = ChoiceNumber(0u, 0u);
     float probability;
-    walkLightTree(frame, p, n, true, entry, none, probability);
+    walkLightTree(given, p, n, true, entry, none, probability);
     return probability;
 }
 

@@ -9,6 +9,10 @@ vec2 lessAngle(vec2 a, vec2 b) {
 
 vec2 angleOfCosine(float c) { return vec2(c, sqrt(max(1.0 - c * c, 0.0))); }
 
+LightBounds boundsOf(LightNode node) {
+    return LightBounds(node.center, radiusOf(node), powerOf(node), decodeNormal(node.axis), angleOfCosine(node.cosSpread), node.flags);
+}
+
 bool isGroup(uint group, uint wanted) {
     return (LIGHT_GROUPS & 1u << wanted) != 0u && (LIGHT_GROUPS == 1u << wanted || group == wanted);
 }
@@ -22,15 +26,17 @@ bool finiteLightsHaveCones() {
     return (LIGHT_KINDS & ~(1u << LIGHT_POINT | 1u << LIGHT_SPHERE | infinite)) != 0u;
 }
 
+bool hasSeveralGroups() { return (LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) != 0u; }
+
 bool hasGroup(uint group) { return (LIGHT_GROUPS & 1u << group) != 0u; }
 
 /// The largest cosine of a light's normal that the node's lights can turn towards w (unit, from the surface to
 /// them), as they are seen within the angle `bound` of it; or whether spot lights can shine there.
-float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) {
-    const float towards = -dot(axis, w);
+float turnedTowards(LightBounds node, vec3 w, vec2 bound) {
+    const float towards = -dot(node.axis, w);
     const bool bothSides = (node.flags & LIGHT_NODE_BOTH_SIDES) != 0u;
     const vec2 angle = lessAngle(
-        lessAngle(angleOfCosine(bothSides ? abs(towards) : towards), spread), bound);
+        lessAngle(angleOfCosine(bothSides ? abs(towards) : towards), node.spread), bound);
     // An angle that is left is one out of the cone of normals.
     const bool outside = (node.flags & LIGHT_NODE_SHARP) != 0u && angle.x < 1.0;
     return outside ? 0.0 : max(angle.x, 0.0);
@@ -52,22 +58,20 @@ float likelyLightWithoutCone(vec3 d, vec3 n, float power, float radius) {
 /// have anywhere in the node's sphere; within the sphere the distance is its radius, and cosines are 1, as that of a
 /// point in a medium is everywhere.
 /// 0 only where nothing can arrive.
-float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
-    const float power = powerOf(node), radius = radiusOf(node);
-    const vec3 axis = decodeNormal(node.axis);
-    const vec2 spread = angleOfCosine(node.cosSpread);
+float likelyLight(LightBounds node, uint group, vec3 p, vec3 n) {
+    const float power = node.power, radius = node.radius;
     if (LIGHT_GROUPS == 1u << LIGHT_GROUP_INFINITE)
-        return isNowhere(n) ? power : power * max(lessAngle(angleOfCosine(-dot(n, axis)), spread).x, 0.0);
+        return isNowhere(n) ? power : power * max(lessAngle(angleOfCosine(-dot(n, node.axis)), node.spread).x, 0.0);
     if (LIGHT_GROUPS == 1u << LIGHT_GROUP_NEAR && !lightsHaveCones())
         return likelyLightWithoutCone(node.center - p, n, power, radius);
     const bool infinite = isGroup(group, LIGHT_GROUP_INFINITE);
-    const vec3 d = infinite ? -axis : node.center - p;
+    const vec3 d = infinite ? -node.axis : node.center - p;
     const float distance2 = infinite ? 1.0 : dot(d, d), radius2 = radius * radius;
     const bool within = !infinite && distance2 <= radius2;
     const float scale = infinite ? 1.0 : 1.0 / max(max(distance2, radius2), TINY);
     // Cosine and sine of the angle at which the sphere is seen, both times the distance.
-    const float gap = infinite ? spread.x : sqrt(max(distance2 - radius2, 0.0));
-    const float reach = infinite ? spread.y : radius;
+    const float gap = infinite ? node.spread.x : sqrt(max(distance2 - radius2, 0.0));
+    const float reach = infinite ? node.spread.y : radius;
     // The least angle between n and a direction to the sphere, as in lessAngle().
     const float towards = dot(n, d);
     const float across = sqrt(max(distance2 - towards * towards, 0.0));
@@ -75,7 +79,7 @@ float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
     float lightCosine = 1.0;
     if (finiteLightsHaveCones() && !infinite && !within) {
         const float inverse = inversesqrt(max(distance2, TINY));
-        lightCosine = turnedTowards(node, axis, spread, d * inverse, vec2(gap, reach) * inverse);
+        lightCosine = turnedTowards(node, d * inverse, vec2(gap, reach) * inverse);
     }
     const float falloff = isGroup(group, LIGHT_GROUP_NEAR) ? scale : 1.0;
     return power * lightCosine * max(cosine, 0.0) * falloff;
@@ -126,7 +130,7 @@ LightWalk atRoot(const Frame frame, uint group) {
 }
 
 float likelyLight(const Frame frame, LightWalk walk, uint node, vec3 p, vec3 n) {
-    return likelyLight(fetchLightNode(frame, 2u * walk.first + node, lightsHaveCones()), walk.group, p, n);
+    return likelyLight(boundsOf(fetchLightNode(frame, 2u * walk.first + node, lightsHaveCones())), walk.group, p, n);
 }
 
 /// Takes the first of two choices, or not, and notes the probability; where neither has any weight, that is 0.
@@ -141,14 +145,14 @@ bool take(inout float probability, float first, float second, bool follows, bool
 }
 
 /// To the root of a group: the first group against the other two, then the second against the third, of those that the scene has.
-LightWalk enterGroup(const Frame frame, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c) {
+LightWalk enterGroup(const Given given, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c) {
     // The only one, if it is: of the bits 1, 2 and 4.
-    if ((LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) == 0u) return atRoot(frame, LIGHT_GROUPS >> 1u);
+    if (!hasSeveralGroups()) return atRoot(given.frame, LIGHT_GROUPS >> 1u);
     float likely[LIGHT_GROUP_COUNT];
     for (uint group = 0u; group < LIGHT_GROUP_COUNT; ++group) {
         likely[group] = 0.0;
-        if (hasGroup(group) && lightsInGroup(frame, group) > 0u)
-            likely[group] = likelyLight(frame, atRoot(frame, group), 1u, p, n);
+        if (hasGroup(group) && lightsInGroup(given.frame, group) > 0u)
+            likely[group] = likelyLight(given.roots.all[group].bounds, group, p, n);
     }
     float probability = 1.0;
     bool isFirst = false, isSecond = hasGroup(1u);
@@ -156,7 +160,7 @@ LightWalk enterGroup(const Frame frame, vec3 p, vec3 n, bool follows, LightEntry
     if (hasGroup(1u) && hasGroup(2u) && !isFirst)
         isSecond = take(probability, likely[1], likely[2], follows, to.group == 1u, c);
     const uint group = isFirst ? 0u : (isSecond ? 1u : 2u);
-    LightWalk walk = atRoot(frame, group);
+    LightWalk walk = atRoot(given.frame, group);
     walk.probability = probability;
     return walk;
 }
@@ -173,11 +177,11 @@ void descend(const Frame frame, inout LightWalk walk, vec3 p, vec3 n, bool follo
 
 /// From the roots to a light, as seen from p with unit normal n: at random, or to a given one. Returns the
 /// light's number; the probability is 0 where no light reaches the point.
-uint walkLightTree(const Frame frame, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c,
+uint walkLightTree(const Given given, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c,
                    out float probability) {
-    LightWalk walk = enterGroup(frame, p, n, follows, to, c);
+    LightWalk walk = enterGroup(given, p, n, follows, to, c);
     for (uint level = 0u; LIGHT_TREES_BRANCH && level < MOST_LIGHT_LEVELS && !isLeaf(walk); ++level)
-        descend(frame, walk, p, n, follows, (to.trail >> level & 1u) == 0u, c);
+        descend(given.frame, walk, p, n, follows, (to.trail >> level & 1u) == 0u, c);
     probability = walk.probability;
     return walk.first + walk.node - walk.lights;
 }

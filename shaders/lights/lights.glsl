@@ -23,18 +23,14 @@ uint onlyLightReference() {
     return samplesLightKind(LIGHT_TRIANGLE) ? fetchLightEntry(0u).light : 0u;
 }
 
-LightRows fetchLight(const OnlyLight onlyLight, uint light) {
-    if (LIGHT_CHOICE == LIGHT_CHOICE_ONE) return onlyLight.rows;
-    return fetchLightRows(light);
-}
-
-#include "lights/area_lights.glsl"
 #include "lights/choice_number.glsl"
+#include "lights/light_tree.glsl"
+#include "lights/light_roots.glsl"
+#include "lights/light_sampler.glsl"
+#include "lights/area_lights.glsl"
 #include "lights/distant_lights.glsl"
 #define SAMPLES_DELTA_LIGHTS
 #include "shared/delta_lights.h"
-#include "lights/light_tree.glsl"
-#include "lights/light_sampler.glsl"
 
 OnlyLight findOnlyLight() {
     OnlyLight only;
@@ -55,7 +51,7 @@ OnlyLight findOnlyLight() {
 LightSample sampleLight(const Given given, SurfacePoint s, uint light, vec2 u, out MaterialPoint emitter) {
     emitter = MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
     if (isTriangleLight(light)) return sampleTriangleLight(s, light, u, emitter);
-    const LightRows rows = fetchLight(given.onlyLight, light);
+    const LightRows rows = rowsOfLight(given, light);
     const uint kind = kindOf(rows);
 #define SAMPLE_LIGHT(structure, function, fields, met, sample_) \
     if (met) return sample_;

@@ -124,6 +124,7 @@ void main() {
     given.frame = frame;
     given.grid = pictureGrid(frame);
     given.onlyLight = findOnlyLight();
+    given.roots = findRoots(frame);
     given.gap = findGap(frame, given.onlyLight);
     for (uint i = 0u; i < PORTALS; ++i)
         given.portals.all[i] = portalOf(frame, i);

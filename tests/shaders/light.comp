@@ -20,14 +20,15 @@ LightAnswer answer(LightQuery q) {
     Given given;
     given.frame = frame;
     given.onlyLight = findOnlyLight();
+    given.roots = findRoots(frame);
     const vec2 u = vec2(q.u, q.v);
     PickedLight picked;
     float again = 0.0;
     if (q.light == NO_LIGHT) {
-        picked = pickLight(frame, litPoint(s), shadingNormal(s), 0u, u);
+        picked = pickLight(given, litPoint(s), shadingNormal(s), 0u, u);
     } else {
-        const LightEntry entry = fetchLightEntry(q.light);
-        again = lightProbability(frame, entry, litPoint(s), shadingNormal(s));
+        const LightEntry entry = lightEntry(given.roots, q.light);
+        again = lightProbability(given, entry, litPoint(s), shadingNormal(s));
         picked = PickedLight(entry.light, 1.0, u);
     }
     MaterialPoint emitter;

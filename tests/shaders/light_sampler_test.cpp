@@ -210,6 +210,21 @@ TEST_P(LightSampler, PicksAmongGroupsOfOneLight) {
     }
 }
 
+/// A light that falls off and one that does not, each by where it is: power and cosines over the
+/// squared distance of the first, powers and cosines of the second.
+TEST_P(LightSampler, WeighsEachGroupByItsOwnLight) {
+    if (GetParam().choice != LightChoice::Tree) GTEST_SKIP() << "others have no groups";
+    load(oneLightOfEach(0b011));
+    const auto nearOverFar = [&](const glm::vec3& place) {
+        const std::map<uint32_t, double> p = probabilities(surface(place, {0, 1, 0}));
+        return p.begin()->second / p.rbegin()->second;
+    };
+    const auto expected = [](double below) { // both lights are so far above, and half a metre apart
+        return 1 / (below * below) / (below / std::hypot(below, 0.5));
+    };
+    EXPECT_NEAR(nearOverFar({0, 0, 0}) / nearOverFar({0, -1, 0}), expected(1) / expected(2), 0.02);
+}
+
 /// Given the light, the number that is left is uniform: sixteen cells for each light that is picked
 /// often.
 TEST_P(LightSampler, LeavesAUniformNumber) {
