@@ -52,7 +52,7 @@ struct FieldConditions {
         return (LIGHT_KINDS & 1u << kind) != 0;
     }
     bool findsSkyOnArrival() const {
-        return HAS_AMBIENT != 0 && DIRECT_LIGHT == gpu::DIRECT_LIGHTS && LIGHT_THROUGH_GLASS == 0 &&
+        return HAS_AMBIENT != 0 && DIRECT_LIGHT == gpu::DIRECT_LIGHTS &&
                (samplesLightKind(gpu::LIGHT_ENVIRONMENT) ||
                 (samplesLightKind(gpu::LIGHT_AMBIENT) && PORTALS > 0));
     }

@@ -80,7 +80,9 @@ void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float shar
     const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && countedBounces(path.bounce, path.uncounted) >= frame.minBounce;
     const bool adds = counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT;
     vec3 light = vec3(0.0);
-    if (adds) light = limited(path, path.throughput * sky.radiance * share);
+    vec3 found = sky.radiance;
+    if (findsSkyOnArrival() && isThroughGlass(path)) found = arrivedFrom(sky, path.sampledSky, path.bouncePdf);
+    if (adds) light = limited(path, path.throughput * found * share);
     path.radiance += light;
     if (isThroughGlass(path)) arriveThroughGlass(path, light, share);
     else if (RECORDS) recordMiss(path, light, share);

@@ -20,10 +20,9 @@ bool sceneHasOnly(uint bit) { return (CLOSURES_OF_ALL & bit) != 0u; }
 bool has(uint closures, uint bit) { return sceneHas(bit) && (sceneHasOnly(bit) || (closures & bit) != 0u); }
 /// Whether light samples go to lights of this kind.
 bool samplesLightKind(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
-/// Whether what a light sample to the sky brings is looked up when its ray has found the sky, as for path rays. Through
-/// glass its share has to be known before.
+/// Whether what a light sample to the sky brings is looked up when its ray has found the sky, as for path rays.
 bool findsSkyOnArrival() {
-    return HAS_AMBIENT && DIRECT_LIGHT == DIRECT_LIGHTS && !LIGHT_THROUGH_GLASS &&
+    return HAS_AMBIENT && DIRECT_LIGHT == DIRECT_LIGHTS &&
            (samplesLightKind(LIGHT_ENVIRONMENT) || samplesLightKind(LIGHT_AMBIENT) && PORTALS > 0u);
 }
 /// kind == wanted, known without looking where there is but one, or none of that kind.
