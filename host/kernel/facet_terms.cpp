@@ -1,5 +1,7 @@
 #include "host/kernel/facet_terms.hpp"
 
+#include "host/core/quadrature.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -97,8 +99,18 @@ struct Microfacets {
     }
 };
 
-/// How many rings of normals are summed: integrals over views need fewer.
-constexpr int kCoarse = 64, kFine = 192;
+/// Rings of normals that are summed for the light that goes through, by Gauss and Legendre's rule.
+/// Of 192 rings of one width sums are four times as far off (docs/results.md, "Start-up").
+const Quadrature& ringsOfTransmitted() {
+    static const Quadrature rings = gaussLegendre(32);
+    return rings;
+}
+/// Likewise for what is reflected, of which some is so totally: at the edge of that light, rings of
+/// one width are nearer.
+const Quadrature& ringsOfReflected() {
+    static const Quadrature rings = midpoints(48);
+    return rings;
+}
 
 constexpr size_t kSectors = Microfacets::kMostAreas;
 using OfSectors = std::array<double, kSectors>;
@@ -117,15 +129,15 @@ enum class Way { Reflected, Transmitted };
 /// The share of light from a direction that goes this way after one scattering. eta: index on the
 /// side of that direction over that on the other.
 template <Way way>
-double scatteredBy(const Microfacets& facets, double eta, double cosine, int rings) {
+double scatteredBy(const Microfacets& facets, double eta, double cosine, const Quadrature& rings) {
     static const OfSectors cosines = sectorCosines();
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), area = facets.area(cosine);
     double sum = 0;
     OfSectors cosO, otherZ, otherArea, shares;
-    for (int i = 0; i < rings; ++i) {
+    for (size_t i = 0; i < rings.at.size(); ++i) {
         // A substitution that makes the tails of GGX smooth: visible normals have 1 / cos more of
         // them.
-        const double left = 1 - (i + 0.5) / rings, ring = 2 * left / rings;
+        const double left = rings.at[i], ring = 2 * left * rings.weight[i];
         const double z = 1 / std::sqrt(1 + facets.tangent2(1 - left * left));
         const double across = std::sqrt(1 - z * z);
         // Half of the sectors: the others are their mirror images. They turn away from the
@@ -196,21 +208,21 @@ double internalReflectance(double ior, double alpha, const Facets& facets, uint3
         double sum = 0;
         for (uint32_t i = 0; i < views; ++i) {
             const double mu = std::max(double(i) / (views - 1), 1e-6);
-            sum += 2 * mu * scatteredBy<Way::Reflected>(shape, ior, mu, kCoarse);
+            sum += 2 * mu * scatteredBy<Way::Reflected>(shape, ior, mu, ringsOfReflected());
         }
         return sum / views;
     }
     // Up to the critical angle and from there on: what narrow facets reflect ends there like a
     // square root.
     const double critical = std::sqrt(std::max(1 - 1 / square(ior), 0.0));
-    constexpr int kViews = 32;
+    static const Quadrature towardsEnds = gaussLegendre(12);
     double sum = 0;
-    for (int i = 0; i < kViews; ++i) {
-        const double s = (i + 0.5) / kViews;
+    for (size_t i = 0; i < towardsEnds.at.size(); ++i) {
+        const double s = towardsEnds.at[i];
         for (const double end : {0.0, 1.0}) {
             const double mu = critical + (end - critical) * s * s;
-            sum += 2 * mu * scatteredBy<Way::Reflected>(shape, ior, mu, kCoarse) * 2 * s *
-                   std::abs(end - critical) / kViews;
+            sum += 2 * mu * scatteredBy<Way::Reflected>(shape, ior, mu, ringsOfReflected()) * 2 *
+                   s * std::abs(end - critical) * towardsEnds.weight[i];
         }
     }
     return sum;
@@ -224,7 +236,7 @@ std::array<glm::vec4, gpu::TRANSMITTANCE_PIECES> transmittanceTable(double ior, 
     for (size_t i = 0; i < at.size(); ++i) {
         // A view along the surface (mu = 0) takes the limit.
         const double mu = std::max(square(double(i) / (3 * kPieces)), 1e-9);
-        at[i] = scatteredBy<Way::Transmitted>(shape, 1 / ior, mu, kFine);
+        at[i] = scatteredBy<Way::Transmitted>(shape, 1 / ior, mu, ringsOfTransmitted());
     }
     std::array<glm::vec4, kPieces> pieces;
     for (size_t i = 0; i < kPieces; ++i)

@@ -1,3 +1,4 @@
+#include "host/core/quadrature.hpp"
 #include "host/reference/microfacet.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/stress/case.hpp"
@@ -18,30 +19,6 @@ namespace {
 constexpr int kNodes = 64;     ///< of the cosine
 constexpr int kAzimuths = 256; ///< midpoints; the integrand is periodic and smooth
 
-struct Quadrature {
-    std::vector<double> at, weight; ///< on [0, 1]
-};
-
-/// Newton's method on the Legendre polynomial of degree kNodes.
-Quadrature gaussLegendre() {
-    Quadrature q;
-    for (int i = 0; i < kNodes; ++i) {
-        double x = std::cos(M_PI * (i + 0.75) / (kNodes + 0.5)), slope = 1;
-        for (int step = 0; step < 50; ++step) {
-            double p = 1, before = 0;
-            for (int k = 0; k < kNodes; ++k) {
-                const double next = ((2 * k + 1) * x * p - k * before) / (k + 1);
-                before = p, p = next;
-            }
-            slope = kNodes * (x * p - before) / (x * x - 1);
-            x -= p / slope;
-        }
-        q.at.push_back((1 + x) / 2);
-        q.weight.push_back(1 / ((1 - x * x) * slope * slope));
-    }
-    return q;
-}
-
 /// Integral over azimuths of f(mu, w) w.z, w.z = nu.
 double kernel(const Material& m, double mu, double nu) {
     const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
@@ -61,7 +38,7 @@ double kernel(const Material& m, double mu, double nu) {
 /// an integral equation in one variable, solved at Gauss-Legendre nodes (Nystroem 1930) in double
 /// precision to 1e-6. cosine: of the angle, in (0, 1].
 double metalFurnace(const Material& material, double cosine) {
-    const Quadrature q = gaussLegendre();
+    const Quadrature q = gaussLegendre(kNodes);
     std::vector<std::vector<double>> transport(kNodes, std::vector<double>(kNodes));
     for (int i = 0; i < kNodes; ++i)
         for (int j = 0; j < kNodes; ++j)

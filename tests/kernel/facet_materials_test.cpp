@@ -154,6 +154,44 @@ TEST(InterfaceTable, HasTheLimitOfAPlane) {
     }
 }
 
+/// The share of light from a direction that GGX's facets let through, by all normals: those of the
+/// distribution that are seen, with 1 - F and Smith's masking of both directions, heights being
+/// correlated. mu: the direction's cosine.
+double transmittedByFacets(double ior, double alpha, double mu) {
+    const auto lambda = [&](double z) {
+        return (std::sqrt(1 + alpha * alpha * (1 / (z * z) - 1)) - 1) / 2;
+    };
+    constexpr int kCosines = 1500, kAzimuths = 500;
+    const double sine = std::sqrt(1 - mu * mu), eta = 1 / ior;
+    double sum = 0;
+    for (int i = 0; i < kCosines; ++i) {
+        const double z = (i + 0.5) / kCosines, a2 = alpha * alpha;
+        const double density = a2 / (M_PI * std::pow(z * z * (a2 - 1) + 1, 2));
+        for (int j = 0; j < kAzimuths; ++j) {
+            const double across = std::sqrt(1 - z * z) * std::cos(M_PI * (j + 0.5) / kAzimuths);
+            const double c = sine * across + mu * z;
+            if (c <= 0) continue;
+            const double t = std::sqrt(1 - eta * eta * (1 - c * c));
+            const double other = (eta * c - t) * z - eta * mu; // of the direction below
+            if (other >= 0) continue;
+            const double masking = 1 / (1 + lambda(mu) + lambda(-other));
+            sum += density * c / mu * (1 - fresnel(c, eta)) * masking;
+        }
+    }
+    return sum * 2 * M_PI / (double(kCosines) * kAzimuths);
+}
+
+TEST(InterfaceTable, HoldsTheIntegralOverAllFacets) {
+    for (const double alpha : {0.2, 0.6}) {
+        const auto table = transmittanceTable(1.5, alpha, {.distribution = FacetDistribution::Ggx});
+        for (const size_t piece : {5u, 8u, 12u}) {
+            const double root = double(piece) / double(table.size());
+            EXPECT_NEAR(double(table[piece].x), transmittedByFacets(1.5, alpha, root * root), 2e-4)
+                << alpha << " " << piece;
+        }
+    }
+}
+
 /// The mean over few cosines that Mitsuba takes: 64 of them, of which both ends count in full, are
 /// a trapezoidal sum of 63 pieces and half of what the normal view has too much, over 64.
 TEST(InterfaceTable, InternalReflectanceIsAMeanOfFewViewsWhereThatIsAsked) {
