@@ -216,7 +216,7 @@ std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Ca
     HowLightsArePicked how{built.lights.weighed->plain, {}};
     if (samplesLights(estimator.directLight) && estimator.integrator == Integrator::Path)
         how = howToPick(scene, built, camera, goThroughGlass);
-    if (!pickBy(built.lights, how.choice, how.factors)) return {};
+    if (!pickBy(built.lights, how)) return {};
     return {BINDING_LIGHT_TABLE};
 }
 

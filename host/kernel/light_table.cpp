@@ -240,6 +240,7 @@ class Packer {
 
     void writeTable() {
         if (out_.choice == LightChoice::Automatic) out_.choice = suitableChoice();
+        out_.entries = out_.count;
         const bool isPicked = out_.count > 1 && out_.choice != LightChoice::Each;
         const bool byTree = isPicked && out_.choice == LightChoice::Tree;
         const bool mayPickBy =
@@ -256,7 +257,7 @@ class Packer {
         if (out_.choice == LightChoice::Uniform) // as if all brought the same
             lights.bounds.assign(lights.entries.size(), {.power = 1});
         if (isPicked)
-            out_.table = tableOf(lights, out_.choice);
+            out_.table = tableOf(lights, {out_.choice, {}});
         else
             for (const gpu::LightEntry& entry : lights.entries)
                 appendRows(out_.table, entry);
@@ -320,14 +321,15 @@ LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
     return Packer(scene, placeOf, selection, pictures, std::move(environment), isLeft).pack();
 }
 
-bool pickBy(LightTable& lights, LightChoice choice, std::span<const double> factors) {
-    const bool byTree = choice == LightChoice::Tree;
-    std::vector<Row> table = tableOf(*lights.weighed, choice, factors);
+bool pickBy(LightTable& lights, const HowLightsArePicked& how) {
+    const bool byTree = how.choice == LightChoice::Tree;
+    std::vector<Row> table = tableOf(*lights.weighed, how);
     const bool isOther = !std::ranges::equal(std::as_bytes(std::span(table)),
                                              std::as_bytes(std::span(lights.table)));
     lights.table = std::move(table);
-    lights.choice = choice;
-    lights.isPickedByArrival = !factors.empty();
+    lights.choice = how.choice;
+    lights.isPickedByArrival = !how.factors.empty();
+    lights.entries = lights.count + (how.none > 0 ? 1 : 0);
     setTree(lights, byTree ? lights.weighed->tree : LightTree());
     return isOther;
 }

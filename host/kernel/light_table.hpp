@@ -42,7 +42,8 @@ struct LightTable {
     std::vector<Row> table;  ///< LightEntry rows, then AliasColumn or LightNode rows
     /// The table of the environment's picture; null if there is none, or a black one.
     std::shared_ptr<const EnvironmentTable> environment;
-    uint32_t count = 0;     ///< lights that are sampled
+    uint32_t count = 0;   ///< lights that are sampled
+    uint32_t entries = 0; ///< rows of LightEntry: of these, and of none where samples may take none
     uint32_t areaCount = 0; ///< those of them that rays can meet; LightChoice::Each: the first
     /// The scene has a sky, sampled or not: ambient light or an environment.
     bool hasAmbient = false;
@@ -78,10 +79,9 @@ LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       std::shared_ptr<const EnvironmentTable> environment = {},
                       const std::vector<bool>& isLeft = {});
 
-/// Has light samples pick lights by a tree or by an alias table (Tree, Power), in which each weighs
-/// so many times as much (tableOf()). Only of a table with `weighed`. Returns whether the table is
-/// another one now.
-bool pickBy(LightTable& lights, LightChoice choice, std::span<const double> factors);
+/// Has light samples pick lights by another tree or alias table (tableOf()). Only of a table with
+/// `weighed`. Returns whether the table is another one now.
+bool pickBy(LightTable& lights, const HowLightsArePicked& how);
 
 /// Gives the environment's picture, if there is one, another rotation (radians).
 void turnEnvironment(LightTable& lights, float rotation);

@@ -38,7 +38,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.minBounce = s.minBounce;
     f.maxBounces = s.maxBounces;
     f.terminationProbability = float(s.roulette.terminationProbability);
-    f.lightCount = scene.lights.count;
+    f.lightCount = scene.lights.entries;
     f.areaLights = scene.lights.areaCount;
     f.ambientLight = scene.lights.ambientNumber;
     f.lightsInGroup0 = scene.lights.lightsInGroup[0];

@@ -26,16 +26,25 @@ std::vector<Row> treeTable(const WeighedLights& lights, std::span<const double> 
     return table;
 }
 
-std::vector<Row> aliasTable(const WeighedLights& lights, std::span<const double> factors) {
+std::vector<Row> aliasTable(const WeighedLights& lights, const HowLightsArePicked& how) {
+    std::vector<gpu::LightEntry> entries = lights.entries;
     std::vector<double> weights;
-    for (size_t i = 0; i < lights.bounds.size(); ++i)
-        weights.push_back(irradianceAcross(lights.bounds[i], lights.radius) * factorOf(factors, i));
+    double plain = 0;
+    for (size_t i = 0; i < lights.bounds.size(); ++i) {
+        const double weight = irradianceAcross(lights.bounds[i], lights.radius);
+        weights.push_back(weight * factorOf(how.factors, i));
+        plain += weight;
+    }
+    if (how.none > 0) {
+        entries.push_back(entries.front());
+        weights.push_back(how.none * plain);
+    }
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<Row> table;
-    for (size_t i = 0; i < weights.size(); ++i) {
-        gpu::LightEntry entry = lights.entries[i];
-        entry.probability = float(weights[i] / sum);
-        appendRows(table, entry);
+    for (size_t i = 0; i < entries.size(); ++i) {
+        const bool isLight = i < lights.entries.size();
+        entries[i].probability = isLight ? float(weights[i] / sum) : 0;
+        appendRows(table, entries[i]);
     }
     for (const AliasColumn& column : buildAliasTable(weights))
         appendRows(table, gpu::AliasColumn{float(column.threshold), column.alias, 0, 0});
@@ -49,9 +58,9 @@ double irradianceAcross(const LightBounds& bounds, double radius) {
     return bounds.power * (bounds.bothSides ? 2 : 1) / falloff;
 }
 
-std::vector<Row> tableOf(const WeighedLights& lights, LightChoice choice,
-                         std::span<const double> factors) {
-    return choice == LightChoice::Tree ? treeTable(lights, factors) : aliasTable(lights, factors);
+std::vector<Row> tableOf(const WeighedLights& lights, const HowLightsArePicked& how) {
+    return how.choice == LightChoice::Tree ? treeTable(lights, how.factors)
+                                           : aliasTable(lights, how);
 }
 
 } // namespace stromboli

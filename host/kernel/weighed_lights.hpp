@@ -23,10 +23,20 @@ struct WeighedLights {
     LightChoice plain = LightChoice::Tree; ///< Tree or Power: without factors
 };
 
-/// LightTable::table, by which light samples pick lights. choice: Tree or Power. factors: how many
-/// times as much each light weighs, by number, positive; empty: none has another weight. Light
-/// samples know the probabilities that follow, so that all factors leave pictures without bias.
-std::vector<Row> tableOf(const WeighedLights& lights, LightChoice choice,
-                         std::span<const double> factors = {});
+/// How a light sample picks one of several lights. It knows the probabilities that follow, so that
+/// any leave pictures without bias.
+struct HowLightsArePicked {
+    LightChoice choice = LightChoice::Tree; ///< Tree or Power
+    /// How many times as much each light weighs, by number, positive; empty: none has another
+    /// weight.
+    std::vector<double> factors;
+    /// Power: how much it weighs to take no light sample at all, by what all lights weigh without
+    /// factors.
+    double none = 0;
+};
+
+/// LightTable::table, by which light samples pick lights: with a LightEntry more, of probability 0,
+/// where they may take none.
+std::vector<Row> tableOf(const WeighedLights& lights, const HowLightsArePicked& how);
 
 } // namespace stromboli

@@ -34,7 +34,7 @@ struct Frame {
     uint minBounce;
     uint maxBounces;
     float terminationProbability; ///< roulette, fixed
-    uint lightCount; ///< number of lights that light samples may go to; 0: none is sampled
+    uint lightCount; ///< LightEntry rows: of all lights that light samples go to, and of none where they may take none
     uint areaLights; ///< those of them that rays can meet, which come first (LIGHT_CHOICE_EACH)
     uint hemisphereSamples; ///< directions per shading point that are tried to find lights
     uint lightSamples; ///< samples of lights per shading point, of all together

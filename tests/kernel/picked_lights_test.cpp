@@ -1,6 +1,7 @@
 // Lights that are picked by how much of their light arrives: no bias for any factors, lights behind
 // walls get few samples, and trees hold what they are given.
 #include "host/kernel/arriving_light.hpp"
+#include "host/kernel/light_shares.hpp"
 #include "host/kernel/light_table.hpp"
 #include "tests/kernel/window_room.hpp"
 #include "tests/render/device_render.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace stromboli {
@@ -57,13 +59,51 @@ TEST(PickedLights, ASkyBehindWallsIsLeftToFewSamples) {
     const HowLightsArePicked how = howToPick(scene, closed, kRoomView, false);
     EXPECT_EQ(how.choice, LightChoice::Power);
     ASSERT_EQ(how.factors.size(), 4u);
-    EXPECT_TRUE(pickBy(closed.lights, how.choice, how.factors));
-    // A tenth of what it had, and little more for what is not known of it.
-    EXPECT_GT(probabilityOfSky(closed.lights), 0.05);
-    EXPECT_LT(probabilityOfSky(closed.lights), 0.3);
-    EXPECT_TRUE(pickBy(closed.lights, closed.lights.weighed->plain, {})) << "another camera";
+    EXPECT_TRUE(pickBy(closed.lights, how));
+    // A thirty-second of what it had.
+    EXPECT_GT(probabilityOfSky(closed.lights), 0.02);
+    EXPECT_LT(probabilityOfSky(closed.lights), 0.06);
+    EXPECT_TRUE(pickBy(closed.lights, {closed.lights.weighed->plain, {}})) << "another camera";
     EXPECT_EQ(closed.lights.table, packedFor(scene).lights.table);
-    EXPECT_FALSE(pickBy(closed.lights, closed.lights.weighed->plain, {}));
+    EXPECT_FALSE(pickBy(closed.lights, {closed.lights.weighed->plain, {}}));
+}
+
+/// A lamp whose samples take long beside a light of which nothing arrives: best shares without the
+/// choice of no sample at all are a half for each.
+TEST(PickedLights, NoLightIsPickedInPlaceOfOneThatIsHidden) {
+    GpuScene closed = packedFor(roomWithLamps(0, 3));
+    const uint32_t count = closed.lights.count, sky = closed.lights.ambientNumber;
+    KnownOfLights known{.sent = std::vector<double>(count, 1),
+                        .moments = std::vector<double>(count, 0.5),
+                        .costs = std::vector<double>(count, 8),
+                        .isHidden = std::vector<bool>(count, false)};
+    known.moments[sky] = 1e-4, known.costs[sky] = 1;
+    const HowLightsArePicked seen = bestPicks(*closed.lights.weighed, known, sky);
+    EXPECT_EQ(seen.none, 0);
+    known.isHidden[sky] = true;
+    const HowLightsArePicked how = bestPicks(*closed.lights.weighed, known, sky);
+    EXPECT_GT(how.none, 0.25);
+    pickBy(closed.lights, how);
+    ASSERT_EQ(closed.lights.entries, count + 1);
+    EXPECT_EQ(closed.lights.table.size(), 2 * (count + 1));
+    double sum = 0;
+    for (uint32_t i = 0; i <= count; ++i)
+        sum += structureAt<gpu::LightEntry>(closed.lights.table, i).probability;
+    EXPECT_EQ(structureAt<gpu::LightEntry>(closed.lights.table, count).probability, 0);
+    EXPECT_NEAR(sum, 1 - how.none, 0.1) << "by rounding to quarters of powers of two";
+    // The columns pick each number as often as it says.
+    std::vector<double> picked(count + 1, 0.0);
+    for (uint32_t i = 0; i <= count; ++i) {
+        const auto column = structureAt<gpu::AliasColumn>(closed.lights.table, count + 1 + i);
+        picked[i] += double(column.threshold) / (count + 1);
+        picked[column.alias] += (1 - double(column.threshold)) / (count + 1);
+    }
+    for (uint32_t i = 0; i < count; ++i)
+        EXPECT_NEAR(picked[i], structureAt<gpu::LightEntry>(closed.lights.table, i).probability,
+                    1e-6);
+    EXPECT_NEAR(picked[count], 1 - sum, 1e-6);
+    pickBy(closed.lights, {closed.lights.weighed->plain, {}, 0});
+    EXPECT_EQ(closed.lights.entries, count) << "another camera";
 }
 
 /// Light comes through a curtain of which most is not there.
@@ -106,7 +146,7 @@ TEST(PickedLights, ManyLampsBesideAHiddenSkyAreToldApartByATree) {
     EXPECT_EQ(closed.lights.groups, 0u) << "no tree in the kernel";
     const HowLightsArePicked how = howToPick(scene, closed, kRoomView, false);
     EXPECT_EQ(how.choice, LightChoice::Tree);
-    EXPECT_TRUE(pickBy(closed.lights, how.choice, how.factors));
+    EXPECT_TRUE(pickBy(closed.lights, how));
     EXPECT_EQ(closed.lights.groups, 1u << gpu::LIGHT_GROUP_NEAR | 1u << gpu::LIGHT_GROUP_INFINITE);
     EXPECT_EQ(closed.lights.table.size(), 5 * closed.lights.count);
 }
@@ -136,12 +176,12 @@ TEST(PickedLights, ALampBehindWallsIsLeftToFewSamples) {
 TEST(PickedLights, TreesHoldThePowersThatTheyAreGiven) {
     const Scene scene = roomWithLamps(0, 7);
     GpuScene room = packedFor(scene);
-    pickBy(room.lights, LightChoice::Tree, {});
+    pickBy(room.lights, {LightChoice::Tree, {}});
     const std::vector<double> plain = powersOf(room.lights);
     std::vector<double> factors;
     for (uint32_t i = 0; i < room.lights.count; ++i)
         factors.push_back(i + 1.0);
-    pickBy(room.lights, LightChoice::Tree, factors);
+    pickBy(room.lights, {LightChoice::Tree, factors});
     const std::vector<double> given = powersOf(room.lights);
     uint32_t first = 0;
     for (const uint32_t count : room.lights.lightsInGroup) {
@@ -164,7 +204,8 @@ TEST(PickedLights, TreesHoldThePowersThatTheyAreGiven) {
 
 class PickedLight : public DeviceTest {
   protected:
-    Film pictureOf(const Scene& loaded, LightChoice choice, std::span<const double> factors,
+    /// how: as packed, if there is none.
+    Film pictureOf(const Scene& loaded, const std::optional<HowLightsArePicked>& how,
                    uint32_t seed) {
         RenderSettings settings;
         settings.area.width = 48, settings.area.height = 36;
@@ -174,7 +215,7 @@ class PickedLight : public DeviceTest {
         GpuScene scene =
             packScene(loaded, buildWideBvh(loaded), lightSelection(settings.estimator));
         EXPECT_TRUE(scene.lights.weighed);
-        if (choice != LightChoice::Automatic) pickBy(scene.lights, choice, factors);
+        if (how) pickBy(scene.lights, *how);
         VulkanBackend backend(testDevice(), scene, kRoomView, settings);
         return render(backend, settings);
     }
@@ -184,10 +225,12 @@ class PickedLight : public DeviceTest {
 TEST_F(PickedLight, HasNoBiasForAnyFactors) {
     Scene scene = roomWithLamps(1, 4);
     scene.environment->strength = 1;
-    const Film plain = pictureOf(scene, LightChoice::Automatic, {}, 1);
+    const Film plain = pictureOf(scene, {}, 1);
     const std::vector<double> any = {0.1, 7, 0.5, 2, 30};
-    expectAgreement(plain, pictureOf(scene, LightChoice::Power, any, 2), "an alias table");
-    expectAgreement(plain, pictureOf(scene, LightChoice::Tree, any, 3), "a tree");
+    expectAgreement(plain, pictureOf(scene, {{LightChoice::Power, any}}, 2), "an alias table");
+    expectAgreement(plain, pictureOf(scene, {{LightChoice::Power, any, 3}}, 4),
+                    "an alias table by which some samples take no light");
+    expectAgreement(plain, pictureOf(scene, {{LightChoice::Tree, any}}, 3), "a tree");
 }
 
 /// Where a sky outshines lamps and does not arrive, and with it all but a few of the samples.
@@ -201,8 +244,7 @@ TEST_F(PickedLight, HasLessNoiseBehindClosedWindows) {
             sum += p.m2.y / (double(p.count) - 1);
         return sum;
     };
-    const Film plain = pictureOf(scene, LightChoice::Automatic, {}, 1),
-               picked = pictureOf(scene, how.choice, how.factors, 2);
+    const Film plain = pictureOf(scene, {}, 1), picked = pictureOf(scene, how, 2);
     expectAgreement(plain, picked, "a closed room");
     EXPECT_LT(variance(picked), 0.1 * variance(plain));
 }

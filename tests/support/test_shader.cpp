@@ -86,7 +86,7 @@ void TestShader::setScene(const GpuScene& scene) {
     setBytes(BINDING_ENVIRONMENT, std::as_bytes(scene.lights.environmentRows()));
     setBytes(BINDING_DETAIL, std::as_bytes(std::span(scene.details.rows)));
     gpu::Frame frame{};
-    frame.lightCount = scene.lights.count;
+    frame.lightCount = scene.lights.entries;
     frame.areaLights = scene.lights.areaCount;
     frame.ambientLight = scene.lights.ambientNumber;
     frame.lightsInGroup0 = scene.lights.lightsInGroup[0];
