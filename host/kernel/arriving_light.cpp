@@ -25,8 +25,10 @@ constexpr uint32_t kLightsOfPlace = 16, kRaysToSky = 4;
 constexpr double kPlacesOfAll = 4;
 /// What another segment of a light sample's ray costs, behind glass, by what the first one does.
 constexpr double kCostBehindGlass = 2.5;
-/// So little arrives of a light that is hidden, by second moments.
+/// So little arrives of a light that is hidden, by second moments; and so many places have to say
+/// so, as a lamp may be seen from few.
 constexpr double kHidden = 1.0 / 256;
+constexpr size_t kPlacesOfHidden = 256;
 
 /// A light sample: what it brings if nothing is in its way, and whether that is so.
 struct Asked {
@@ -255,7 +257,7 @@ HowLightsArePicked howToPick(const Scene& scene, const GpuScene& packed, const C
         of.moments.push_back(k.sent *
                              std::lerp(arrived / sent, k.sent > 0 ? k.arrived / k.sent : 0, own));
         of.costs.push_back(1 + kCostBehindGlass * std::max(k.segments - 1, 0.0));
-        of.isHidden.push_back(k.arrived <= kHidden * k.sent);
+        of.isHidden.push_back(k.places >= kPlacesOfHidden && k.arrived <= kHidden * k.sent);
     }
     return bestPicks(lights, of, packed.lights.ambientNumber);
 }
