@@ -213,7 +213,7 @@ std::vector<uint32_t> fitToPicture(GpuScene& built, const Scene& scene, const Ca
     built.shadowMap.reset();
     if (mayLookAtShadowMap(built, estimator)) lookForShadows(built, scene, camera);
     if (!built.lights.weighed) return {};
-    HowLightsArePicked how{built.lights.weighed->plain, {}};
+    HowLightsArePicked how{built.lights.weighed->plain};
     if (samplesLights(estimator.directLight) && estimator.integrator == Integrator::Path)
         how = howToPick(scene, built, camera, goThroughGlass);
     if (!pickBy(built.lights, how)) return {};

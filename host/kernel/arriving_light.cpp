@@ -21,28 +21,12 @@ namespace {
 constexpr uint32_t kSide = 16;
 /// Lights that are asked for at each place, one after the other, and rays to the sky.
 constexpr uint32_t kLightsOfPlace = 16, kRaysToSky = 4;
-/// A light's own places count as much on what is known of it as so many places of all lights.
-constexpr double kPlacesOfAll = 4;
-/// What another segment of a light sample's ray costs, behind glass, by what the first one does.
-constexpr double kCostBehindGlass = 2.5;
-/// So little arrives of a light that is hidden, by second moments; and so many places have to say
-/// so, as a lamp may be seen from few.
-constexpr double kHidden = 1.0 / 256;
-constexpr size_t kPlacesOfHidden = 256;
 
 /// A light sample: what it brings if nothing is in its way, and whether that is so.
 struct Asked {
     double light = 0; ///< irradiance, relative luminance
     bool arrives = false;
     int segments = 1; ///< of its ray
-};
-
-/// What is known of a light's samples: means over the places that asked for it.
-struct Known {
-    double sent = 0,
-           arrived = 0; ///< weighted second moments: with nothing in the way, and as it is
-    double segments = 0;
-    size_t places = 0;
 };
 
 class Asker {
@@ -184,7 +168,7 @@ std::vector<AskedOfPlace> askAround(const Scene& scene, const GpuScene& packed,
 }
 
 /// The second moment of samples of a light at a place, times the weight of what happens there.
-void add(Known& known, std::span<const Asked> asked, double weight) {
+void add(KnownLight& known, std::span<const Asked> asked, double weight) {
     const double each = weight / double(asked.size());
     for (const Asked& a : asked) {
         known.sent += each * a.light * a.light;
@@ -196,7 +180,7 @@ void add(Known& known, std::span<const Asked> asked, double weight) {
 
 /// Of samples that aim at portals hardly any is lost, and all bring what the sky's light there is
 /// on average: their second moment is that mean's square, which the products of two rays estimate.
-void addAimed(Known& known, std::span<const Asked> asked, double weight) {
+void addAimed(KnownLight& known, std::span<const Asked> asked, double weight) {
     double sent = 0, arrived = 0, sentSquares = 0, arrivedSquares = 0;
     for (const Asked& a : asked) {
         const double light = a.arrives ? a.light : 0;
@@ -211,8 +195,8 @@ void addAimed(Known& known, std::span<const Asked> asked, double weight) {
 }
 
 /// Noise counts by how bright it is beside the light of the place, and of the picture.
-std::vector<Known> knownOf(std::span<const AskedOfPlace> places, const LightTable& lights,
-                           bool aimsAtPortals) {
+std::vector<KnownLight> knownOf(std::span<const AskedOfPlace> places, const LightTable& lights,
+                                bool aimsAtPortals) {
     std::vector<double> brightness;
     double mean = 0;
     for (const AskedOfPlace& place : places) {
@@ -221,7 +205,7 @@ std::vector<Known> knownOf(std::span<const AskedOfPlace> places, const LightTabl
             sum += of.arriving();
         mean += sum / double(places.size());
     }
-    std::vector<Known> known(lights.count);
+    std::vector<KnownLight> known(lights.count);
     for (size_t i = 0; i < places.size() && mean > 0; ++i) {
         const double weight = std::pow(mean / (mean + brightness[i]), 2);
         for (const AskedOfLight& of : places[i]) {
@@ -229,7 +213,7 @@ std::vector<Known> knownOf(std::span<const AskedOfPlace> places, const LightTabl
             (aims ? addAimed : add)(known[of.number], of.asked, weight);
         }
     }
-    for (Known& k : known) {
+    for (KnownLight& k : known) {
         const double count = std::max(double(k.places), 1.0);
         k.sent /= count, k.arrived /= count, k.segments /= count;
     }
@@ -241,25 +225,12 @@ std::vector<Known> knownOf(std::span<const AskedOfPlace> places, const LightTabl
 HowLightsArePicked howToPick(const Scene& scene, const GpuScene& packed, const Camera& camera,
                              bool goThroughGlass) {
     const WeighedLights& lights = *packed.lights.weighed;
-    const HowLightsArePicked asPacked{lights.plain, {}, 0};
     // Samples that media take are not asked for.
-    if (packed.media & gpu::MEDIA_SCATTER) return asPacked;
-    const std::vector<Known> known = knownOf(askAround(scene, packed, camera, goThroughGlass),
-                                             packed.lights, !packed.portals.all.empty());
-    double sent = 0, arrived = 0;
-    for (const Known& k : known)
-        sent += k.sent, arrived += k.arrived;
-    if (!(arrived > 0)) return asPacked;
-    KnownOfLights of;
-    for (const Known& k : known) {
-        const double own = double(k.places) / (double(k.places) + kPlacesOfAll);
-        of.sent.push_back(k.sent);
-        of.moments.push_back(k.sent *
-                             std::lerp(arrived / sent, k.sent > 0 ? k.arrived / k.sent : 0, own));
-        of.costs.push_back(1 + kCostBehindGlass * std::max(k.segments - 1, 0.0));
-        of.isHidden.push_back(k.places >= kPlacesOfHidden && k.arrived <= kHidden * k.sent);
-    }
-    return bestPicks(lights, of, packed.lights.ambientNumber);
+    if (packed.media & gpu::MEDIA_SCATTER) return {lights.plain};
+    return bestPicks(lights,
+                     knownOf(askAround(scene, packed, camera, goThroughGlass), packed.lights,
+                             !packed.portals.all.empty()),
+                     packed.lights.ambientNumber);
 }
 
 } // namespace stromboli

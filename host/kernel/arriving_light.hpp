@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/weighed_lights.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
 

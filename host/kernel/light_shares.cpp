@@ -7,10 +7,18 @@
 namespace stromboli {
 namespace {
 
-/// Of light samples, what stays with the choice by power and place; and of those of hidden lights,
-/// where they are picked by an alias table: the brighter a light is, the surer one has to be that
-/// nothing sees it.
-constexpr double kUnlearned = 0.1, kUnlearnedOfHidden = 1.0 / 32;
+/// A light's own places count as much on what is known of it as so many places of all lights.
+constexpr double kPlacesOfAll = 4;
+/// What another segment of a light sample's ray costs, behind glass, by what the first one does.
+constexpr double kCostBehindGlass = 2.5;
+/// The part of the light samples that stays with the choice by power and place, in case that the
+/// rays have missed something.
+constexpr double kUnlearned = 0.1;
+/// A light is hidden where no more of it arrives, by second moments, and so many places say so: a
+/// lamp may be seen from few. By an alias table it keeps so much of its plain share.
+constexpr double kHidden = 1.0 / 256;
+constexpr size_t kPlacesOfHidden = 256;
+constexpr double kShareOfHidden = 1.0 / 32;
 /// The noise of a picture that light samples do not make, by the least that they can make, and what
 /// a path takes at a surface beside its light sample, by what that takes: as in most rooms.
 constexpr double kOtherNoise = 16, kOtherCost = 1.5;
@@ -34,13 +42,13 @@ void normalise(std::vector<double>& shares) {
 /// How often each light is picked without factors: by an alias table as it says, by a tree about in
 /// proportion to what it would bring with nothing in the way. All positive.
 std::vector<double> plainShares(const WeighedLights& lights, LightChoice choice,
-                                std::span<const double> sent) {
+                                std::span<const KnownLight> known) {
     std::vector<double> shares;
     double most = 0;
-    for (size_t i = 0; i < sent.size(); ++i)
+    for (size_t i = 0; i < known.size(); ++i)
         most = std::max(
             most, shares.emplace_back(choice == LightChoice::Tree
-                                          ? std::sqrt(sent[i])
+                                          ? std::sqrt(known[i].sent)
                                           : irradianceAcross(lights.bounds[i], lights.radius)));
     for (double& s : shares)
         s = std::max(s, kLeastShare * most);
@@ -99,15 +107,19 @@ std::vector<double> bestShares(std::span<const double> moments, std::span<const 
     return shares;
 }
 
-/// Hidden lights are cheap, as no ray to them is bent, so that the best shares have the most of
-/// their samples go to these where the others' take long. No sample at all is cheaper. Returns how
-/// much is taken from their shares.
+bool isHidden(const KnownLight& light) {
+    return light.places >= kPlacesOfHidden && light.arrived <= kHidden * light.sent;
+}
+
+/// Where samples of the lights that arrive take long, behind glass, the best shares that add up to
+/// 1 leave most samples to a hidden light, whose rays are short. To take no light is cheaper still.
+/// Returns how much is taken from the shares of hidden lights.
 double takeFromHidden(std::vector<double>& shares, std::span<const double> plain,
-                      const std::vector<bool>& isHidden) {
+                      std::span<const KnownLight> known) {
     double taken = 0;
     for (size_t i = 0; i < shares.size(); ++i) {
-        if (!isHidden[i]) continue;
-        const double kept = std::min(shares[i], kUnlearnedOfHidden * plain[i]);
+        if (!isHidden(known[i])) continue;
+        const double kept = std::min(shares[i], kShareOfHidden * plain[i]);
         taken += shares[i] - kept;
         shares[i] = kept;
     }
@@ -121,24 +133,34 @@ double rounded(double factor) {
 
 } // namespace
 
-HowLightsArePicked bestPicks(const WeighedLights& lights, const KnownOfLights& known,
+HowLightsArePicked bestPicks(const WeighedLights& lights, std::span<const KnownLight> known,
                              uint32_t sky) {
-    const std::vector<double>& moments = known.moments;
-    const std::vector<double> wanted = bestShares(moments, known.costs),
-                              plain = plainShares(lights, lights.plain, known.sent);
-    const Sampling best = samplingBy(wanted, moments, known.costs);
+    double sent = 0, arrived = 0;
+    for (const KnownLight& k : known)
+        sent += k.sent, arrived += k.arrived;
+    if (!(arrived > 0)) return {lights.plain};
+    std::vector<double> moments, costs;
+    for (const KnownLight& k : known) {
+        const double own = double(k.places) / (double(k.places) + kPlacesOfAll);
+        moments.push_back(k.sent *
+                          std::lerp(arrived / sent, k.sent > 0 ? k.arrived / k.sent : 0, own));
+        costs.push_back(1 + kCostBehindGlass * std::max(k.segments - 1, 0.0));
+    }
+    const std::vector<double> wanted = bestShares(moments, costs),
+                              plain = plainShares(lights, lights.plain, known);
+    const Sampling best = samplingBy(wanted, moments, costs);
     const auto timeBy = [&](std::span<const double> shares) {
-        return samplingBy(shares, moments, known.costs).time(best);
+        return samplingBy(shares, moments, costs).time(best);
     };
     const auto pickedBy = [&](LightChoice choice) {
-        HowLightsArePicked how{choice, {}, 0};
+        HowLightsArePicked how{choice};
         std::vector<double> shares;
         for (size_t i = 0; i < wanted.size(); ++i)
             shares.push_back(std::lerp(wanted[i], plain[i], kUnlearned));
         double none = 0;
-        if (choice == LightChoice::Power) none = takeFromHidden(shares, plain, known.isHidden);
+        if (choice == LightChoice::Power) none = takeFromHidden(shares, plain, known);
         if (none >= kLeastNone) how.none = rounded(none);
-        const std::vector<double> of = plainShares(lights, choice, known.sent);
+        const std::vector<double> of = plainShares(lights, choice, known);
         for (size_t i = 0; i < of.size(); ++i)
             how.factors.push_back(rounded(shares[i] / of[i]));
         return how;
@@ -150,7 +172,7 @@ HowLightsArePicked bestPicks(const WeighedLights& lights, const KnownOfLights& k
         sum += shares.emplace_back(plain[i] * how.factors[i]);
     for (double& s : shares)
         s /= sum;
-    if (timeBy(plain) < kLeastGain * timeBy(shares)) return {lights.plain, {}, 0};
+    if (timeBy(plain) < kLeastGain * timeBy(shares)) return {lights.plain};
     const bool areMany = sky != gpu::NO_LIGHT && shares.size() > kManyLamps &&
                          1 - how.none / sum - shares[sky] >= kShareOfManyLamps;
     return areMany ? pickedBy(LightChoice::Tree) : how;

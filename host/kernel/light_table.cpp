@@ -257,7 +257,7 @@ class Packer {
         if (out_.choice == LightChoice::Uniform) // as if all brought the same
             lights.bounds.assign(lights.entries.size(), {.power = 1});
         if (isPicked)
-            out_.table = tableOf(lights, {out_.choice, {}});
+            out_.table = tableOf(lights, {out_.choice});
         else
             for (const gpu::LightEntry& entry : lights.entries)
                 appendRows(out_.table, entry);

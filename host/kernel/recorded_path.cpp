@@ -63,8 +63,9 @@ RecordedVertex arrival(const gpu::PathEvent& e, const GpuScene& scene) {
 
 RecordedLight lightSample(const gpu::PathEvent& e, const GpuScene& scene) {
     RecordedLight l;
-    l.kind = kindOfLight(e.name, scene);
-    if (e.name != gpu::NO_NAME) l.primitive = primitiveOf(e.name, scene);
+    const bool tookNone = e.name != gpu::NO_NAME && e.pdf == 0;
+    l.kind = tookNone ? kNoLight : kindOfLight(e.name, scene);
+    if (e.name != gpu::NO_NAME && !tookNone) l.primitive = primitiveOf(e.name, scene);
     l.direction = e.direction;
     if (double(e.distance) < 1e30) l.distance = double(e.distance);
     l.pdf = positive(e.pdf);

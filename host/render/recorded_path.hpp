@@ -13,6 +13,10 @@ namespace stromboli {
 /// No primitive, or no placement.
 inline constexpr uint32_t kNotNamed = 0xFFFFFFFFu;
 
+/// RecordedLight::kind of a sample that was taken of no light, as some are
+/// (HowLightsArePicked::none), and as all are where none can arrive.
+inline constexpr const char* kNoLight = "none";
+
 /// A sample of direct light, or a direction in which hemisphere sampling looks for some.
 struct RecordedLight {
     enum class Fate {
@@ -20,7 +24,7 @@ struct RecordedLight {
         InShadow,
         Arrives,
     };
-    std::string kind;               ///< of light; empty: whatever lies there
+    std::string kind;               ///< of light; empty: whatever lies there; kNoLight
     uint32_t primitive = kNotNamed; ///< the emissive one, where it is known
     glm::dvec3 direction{0, 0, 1};  ///< unit, to the light
     /// Metres, from where the surface is lit: smooth ones are beside their triangles.

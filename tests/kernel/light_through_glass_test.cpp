@@ -281,6 +281,16 @@ TEST_F(LightThroughGlass, HasTheSameBytesHoweverTheWorkIsCut) {
         [&](const KernelTuning& tuning) { return pictureOf(scene, true, tuning); });
 }
 
+/// What a sample on its way through glass brings is looked up when it has found the sky, some
+/// passes later.
+TEST_F(LightThroughGlass, OfTheSkyHasTheSameBytesHoweverTheWorkIsCut) {
+    view_ = kRoomView;
+    const Scene scene = glazedRoom(1, MaterialKind::Dielectric);
+    settings_.budget.mostSamplesPerPixel = 8;
+    expectTheSameBytesHoweverTheWorkIsCut(
+        [&](const KernelTuning& tuning) { return pictureOf(scene, true, tuning); });
+}
+
 // --- When
 // ------------------------------------------------------------------------------------------
 

@@ -63,24 +63,23 @@ TEST(PickedLights, ASkyBehindWallsIsLeftToFewSamples) {
     // A thirty-second of what it had.
     EXPECT_GT(probabilityOfSky(closed.lights), 0.02);
     EXPECT_LT(probabilityOfSky(closed.lights), 0.06);
-    EXPECT_TRUE(pickBy(closed.lights, {closed.lights.weighed->plain, {}})) << "another camera";
+    EXPECT_TRUE(pickBy(closed.lights, {closed.lights.weighed->plain})) << "another camera";
     EXPECT_EQ(closed.lights.table, packedFor(scene).lights.table);
-    EXPECT_FALSE(pickBy(closed.lights, {closed.lights.weighed->plain, {}}));
+    EXPECT_FALSE(pickBy(closed.lights, {closed.lights.weighed->plain}));
 }
 
-/// A lamp whose samples take long beside a light of which nothing arrives: best shares without the
-/// choice of no sample at all are a half for each.
+/// Lamps whose samples take long, behind glass, beside a sky of which nothing arrives. The sky's
+/// rays are the shortest, so that it would have a large share of the samples.
 TEST(PickedLights, NoLightIsPickedInPlaceOfOneThatIsHidden) {
     GpuScene closed = packedFor(roomWithLamps(0, 3));
     const uint32_t count = closed.lights.count, sky = closed.lights.ambientNumber;
-    KnownOfLights known{.sent = std::vector<double>(count, 1),
-                        .moments = std::vector<double>(count, 0.5),
-                        .costs = std::vector<double>(count, 8),
-                        .isHidden = std::vector<bool>(count, false)};
-    known.moments[sky] = 1e-4, known.costs[sky] = 1;
-    const HowLightsArePicked seen = bestPicks(*closed.lights.weighed, known, sky);
-    EXPECT_EQ(seen.none, 0);
-    known.isHidden[sky] = true;
+    std::vector<KnownLight> known(count, {.sent = 1, .arrived = 0.5, .segments = 4, .places = 500});
+    known[sky] = {.sent = 1, .arrived = 0, .segments = 1, .places = 100};
+    EXPECT_EQ(bestPicks(*closed.lights.weighed, known, sky).none, 0) << "too few places say so";
+    known[sky].places = 500;
+    known[sky].arrived = 0.01;
+    EXPECT_EQ(bestPicks(*closed.lights.weighed, known, sky).none, 0) << "it is seen";
+    known[sky].arrived = 0;
     const HowLightsArePicked how = bestPicks(*closed.lights.weighed, known, sky);
     EXPECT_GT(how.none, 0.25);
     pickBy(closed.lights, how);
@@ -102,7 +101,7 @@ TEST(PickedLights, NoLightIsPickedInPlaceOfOneThatIsHidden) {
         EXPECT_NEAR(picked[i], structureAt<gpu::LightEntry>(closed.lights.table, i).probability,
                     1e-6);
     EXPECT_NEAR(picked[count], 1 - sum, 1e-6);
-    pickBy(closed.lights, {closed.lights.weighed->plain, {}, 0});
+    pickBy(closed.lights, {closed.lights.weighed->plain});
     EXPECT_EQ(closed.lights.entries, count) << "another camera";
 }
 
@@ -176,7 +175,7 @@ TEST(PickedLights, ALampBehindWallsIsLeftToFewSamples) {
 TEST(PickedLights, TreesHoldThePowersThatTheyAreGiven) {
     const Scene scene = roomWithLamps(0, 7);
     GpuScene room = packedFor(scene);
-    pickBy(room.lights, {LightChoice::Tree, {}});
+    pickBy(room.lights, {LightChoice::Tree});
     const std::vector<double> plain = powersOf(room.lights);
     std::vector<double> factors;
     for (uint32_t i = 0; i < room.lights.count; ++i)
@@ -231,6 +230,30 @@ TEST_F(PickedLight, HasNoBiasForAnyFactors) {
     expectAgreement(plain, pictureOf(scene, {{LightChoice::Power, any, 3}}, 4),
                     "an alias table by which some samples take no light");
     expectAgreement(plain, pictureOf(scene, {{LightChoice::Tree, any}}, 3), "a tree");
+}
+
+/// Half of the samples take no light, and say so.
+TEST_F(PickedLight, TellsOfSamplesThatTakeNone) {
+    RenderSettings settings;
+    settings.area.width = 48, settings.area.height = 36;
+    const Scene loaded = roomWithLamps(0, 3);
+    GpuScene scene = packScene(loaded, buildWideBvh(loaded), lightSelection(settings.estimator));
+    pickBy(scene.lights, {LightChoice::Power, std::vector<double>(4, 1), 1});
+    VulkanBackend backend(testDevice(), scene, kRoomView, settings);
+    int none = 0, all = 0;
+    for (uint32_t sample = 0; sample < 16; ++sample) {
+        const RecordedPath path = backend.record(1000, sample);
+        for (const RecordedVertex& v : path.vertices)
+            for (const RecordedLight& l : v.lights) {
+                ++all;
+                if (l.kind != kNoLight) continue;
+                ++none;
+                EXPECT_EQ(l.fate, RecordedLight::Fate::BringsNothing);
+                EXPECT_EQ(l.primitive, kNotNamed);
+            }
+    }
+    EXPECT_GT(none, all / 4);
+    EXPECT_LT(none, all - all / 4);
 }
 
 /// Where a sky outshines lamps and does not arrive, and with it all but a few of the samples.
