@@ -48,9 +48,13 @@ class Asker {
     }
 
   private:
-    Found follow(const Place& place, const glm::dvec3& w) const {
+    TraversalRay rayTo(const Place& place, const glm::dvec3& w) const {
         const glm::dvec3 n = glm::dot(w, place.normal) < 0 ? -place.normal : place.normal;
-        return rays_.followToLight(rays_.leave(place.point, n, w, place.hit));
+        return rays_.leave(place.point, n, w, place.hit);
+    }
+
+    Found follow(const Place& place, const glm::dvec3& w) const {
+        return rays_.followToLight(rayTo(place, w));
     }
 
     /// Of light from direction w: 0 where it falls on the side that is not lit.
@@ -70,9 +74,9 @@ class Asker {
             asked.light = packed_.lights.environment->luminance * cosineAt(place, w);
         }
         if (!(asked.light > 0)) return {};
-        const Found found = follow(place, w);
-        asked.arrives = !found.hit && found.keepsDirection(glm::vec3(w));
-        asked.segments = 1 + found.panes;
+        const WayToSky way = rays_.followToSky(rayTo(place, w));
+        asked.arrives = way.isFree;
+        asked.segments = 1 + way.panes;
         return asked;
     }
 
@@ -108,8 +112,8 @@ class Asker {
         Asked asked;
         asked.light = bounds.power * cosineAt(place, w);
         if (!(asked.light > 0)) return {};
-        const Found found = follow(place, w);
-        asked.arrives = !found.hit && found.panes == 0;
+        const WayToSky way = rays_.followToSky(rayTo(place, w));
+        asked.arrives = way.isFree && way.panes == 0;
         return asked;
     }
 

@@ -39,19 +39,20 @@ Feelers withoutOutside(const Feelers& feelers) {
     return inside;
 }
 
-/// From what the camera sees, and from where these rays end; empty where the scene lies open or
-/// nothing sees the sky.
-Feelers feelRoom(const WideLayout& bvh, const Camera& camera, const SeesThrough& seesThrough) {
+/// From what the camera sees, and from where these rays end; empty where the scene lies open, where
+/// nothing sees the sky, or where so many rays do that portals surely do not pay (mostFree).
+Feelers feelRoom(const WideLayout& bvh, const Camera& camera, const SeesThrough& seesThrough,
+                 double mostFree) {
     constexpr uint32_t kSideFirst = 16, kSide = 32;
     constexpr double kOpen = 0.3;
     Random random(1);
-    const auto opens = [&](const Feelers& f) { return shareOfFree(f).value_or(1) > kOpen; };
-    if (opens(feelFrom(bvh, lookAround(bvh, camera, kSideFirst, seesThrough), kRaysOfPoint, random,
-                       seesThrough)))
-        return {};
+    const Feelers few = feelFrom(bvh, lookAround(bvh, camera, kSideFirst, seesThrough),
+                                 kRaysOfPoint, random, seesThrough);
+    if (shareOfFree(few).value_or(1) > kOpen) return {};
     const Feelers seen = lookAround(bvh, camera, kSide, seesThrough);
     const Feelers once = feelFrom(bvh, seen, kRaysOfPoint, random, seesThrough);
-    if (opens(once) || shareOfFree(once) <= 0.0) return {};
+    const double free = shareOfFree(once).value_or(1);
+    if (free > std::min(kOpen, mostFree) || free <= 0.0) return {};
     Feelers all = withoutOutside(once);
     const size_t fromSeen = all.size();
     const auto add = [&](std::span<const Feeler> ended) {
@@ -236,6 +237,8 @@ struct Worth {
     double bestShare() const {
         return std::sqrt(aimed()) / (std::sqrt(aimed()) + std::sqrt(others()));
     }
+    /// At most 1, or, if that is more, 1 / (2 unevenness s), s being the share of free rays: the
+    /// sum of the roots is concave in `through`, and `tried` is not less.
     double gain() const {
         return 0.5 * (through + rest) * all / std::pow(std::sqrt(aimed()) + std::sqrt(others()), 2);
     }
@@ -321,7 +324,10 @@ Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenne
                     const SeesThrough& seesThrough) {
     constexpr double kLeastGain = 1.25;
     constexpr size_t kLeastFree = 64;
-    const Feelers feelers = feelRoom(bvh, camera, seesThrough);
+    // Twice the share with which portals may pay (Worth::gain()): fewer rays may be free from
+    // places that the camera does not see.
+    const double mostFree = 2 / (2 * unevenness * kLeastGain);
+    const Feelers feelers = feelRoom(bvh, camera, seesThrough, mostFree);
     Room room;
     std::ranges::copy_if(feelers, std::back_inserter(room.free), &Feeler::isFree);
     if (room.free.size() < kLeastFree) return {};

@@ -52,10 +52,9 @@ std::vector<LightNote> noteLightSamples(const Scene& scene, const GpuScene& pack
         note.normal = glm::vec3(n);
         note.isOfOdd = i / kOfPlace % 2 == 1;
         if (!(glm::dot(glm::dvec3(note.direction), n) > 0)) return;
-        const Found found =
-            rays.followToLight(rays.leave(place.point, n, note.direction, place.hit));
-        if (!found.hit && found.keepsDirection(note.direction))
-            note.value = float(std::abs(cosine));
+        const WayToSky way =
+            rays.followToSky(rays.leave(place.point, n, note.direction, place.hit));
+        if (way.isFree) note.value = float(std::abs(cosine));
     });
     return notes;
 }

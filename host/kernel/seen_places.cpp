@@ -3,6 +3,7 @@
 #include "host/kernel/feelers.hpp"
 #include "host/kernel/lamp_light.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace stromboli {
@@ -15,6 +16,17 @@ constexpr int kMostGaps = 64;
 bool Found::keepsDirection(const glm::vec3& first) const {
     const glm::dvec3 turn = glm::dvec3(ray.direction) - glm::dvec3(first);
     return glm::dot(turn, turn) <= double(gpu::SAME_DIRECTION);
+}
+
+SceneRays::SceneRays(const Scene& scene, const GpuScene& packed, bool goThroughGlass)
+    : scene_(scene), packed_(packed), goThroughGlass_(goThroughGlass),
+      someIsNotThere_(std::ranges::any_of(
+          scene.materials, [](const Material& m) { return m.alphaMode != AlphaMode::Opaque; })) {}
+
+WayToSky SceneRays::followToSky(const TraversalRay& ray) const {
+    if (!goThroughGlass_ && !someIsNotThere_) return {!anyHit(packed_.bvh, ray)};
+    const Found found = followToLight(ray);
+    return {!found.hit && found.keepsDirection(ray.direction), found.panes};
 }
 
 Found SceneRays::followToLight(const TraversalRay& ray) const {

@@ -26,12 +26,17 @@ struct Found {
     bool keepsDirection(const glm::vec3& first) const;
 };
 
+/// What has become of a ray to what is infinitely far.
+struct WayToSky {
+    bool isFree = false; ///< nothing stops it, nor turns it aside
+    int panes = 0;       ///< as Found has it
+};
+
 /// Rays through a scene. Refers to both of its forms.
 class SceneRays {
   public:
     /// goThroughGlass: as light samples do (LIGHT_THROUGH_GLASS).
-    SceneRays(const Scene& scene, const GpuScene& packed, bool goThroughGlass)
-        : scene_(scene), packed_(packed), goThroughGlass_(goThroughGlass) {}
+    SceneRays(const Scene& scene, const GpuScene& packed, bool goThroughGlass);
 
     /// Follows a ray through clear glass, bent, as far as that lets it through.
     Found follow(const TraversalRay& ray) const;
@@ -39,6 +44,9 @@ class SceneRays {
     /// veils, borders of media. How much of them is there is not looked up, so that more is found
     /// than arrives.
     Found followToLight(const TraversalRay& ray) const;
+    /// The same for a ray to what is infinitely far, of which only that is asked: where nothing
+    /// lets rays through, the first hit of any ends it.
+    WayToSky followToSky(const TraversalRay& ray) const;
 
     bool isClear(const TraversalHit& hit) const;
     bool emits(const TraversalHit& hit) const;
@@ -59,6 +67,7 @@ class SceneRays {
     const Scene& scene_;
     const GpuScene& packed_;
     bool goThroughGlass_;
+    bool someIsNotThere_; ///< a surface may be (mayBeNotThere())
 };
 
 /// A point of a surface that scatters light into many directions.

@@ -41,6 +41,25 @@ TEST(FindPortals, FindsTheWindowOfARoom) {
     EXPECT_LE(found.share, 0.75);
 }
 
+/// The more uneven the sky, the less aiming gains. The search ends early where it can gain nothing:
+/// it must not where it gains, which this room's window does up to 32, also if the search is never
+/// ended.
+TEST(FindPortals, FindsTheSameUnlessAnUnevenSkyTakesTheGain) {
+    const WideLayout bvh = buildWideBvh(roomWithWindow(0.4f));
+    const Portals even = findPortals(bvh, kRoomView, 1);
+    ASSERT_EQ(even.all.size(), 1u);
+    for (double unevenness = 2; unevenness <= 1024; unevenness *= 2) {
+        SCOPED_TRACE(unevenness);
+        const Portals found = findPortals(bvh, kRoomView, unevenness);
+        ASSERT_EQ(found.all.size(), unevenness <= 32 ? 1u : 0u);
+        if (!found.all.empty()) {
+            EXPECT_EQ(found.all[0].corner, even.all[0].corner);
+            EXPECT_EQ(found.all[0].edgeA, even.all[0].edgeA);
+            EXPECT_EQ(found.all[0].edgeB, even.all[0].edgeB);
+        }
+    }
+}
+
 /// As the wall of the window, but another one.
 TEST(FindPortals, FindsEachOfTwoWindows) {
     scenes::SceneMaker b;
