@@ -90,11 +90,12 @@ constexpr std::string_view kFamilies[] = {
     "gfx1036",   "gfx1100",   "gfx1101",   "gfx1102"};
 
 /// Has the Vulkan loader find that driver alone, for a GPU of that family, whether there is one or
-/// not. Both variables are read when the instance is made.
+/// not. The variables are read when the instance is made.
 void compileFor(const std::string& family) {
     if (std::ranges::count(kFamilies, family) == 0)
         throw UsageError(fmt::format("--device-family is '{}'; families are {}", printable(family),
                                      fmt::join(kFamilies, ", ")));
+    unsetenv("VK_LOADER_DRIVERS_DISABLE");
     setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
     setenv("VK_ICD_FILENAMES", radeonManifest().c_str(), 1);
     setenv("VK_DRIVER_FILES", radeonManifest().c_str(), 1);

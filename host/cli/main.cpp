@@ -96,6 +96,7 @@ int main(int argc, char** argv) {
     setUpLogging(Verbosity::Normal, status_line::clear);
     process::useMemoryInLargePieces();
     process::useWideVectors();
+    process::leaveOutDriversOfAbsentGpus();
     try {
         return finished(runLine({argv + 1, argv + argc}));
     } catch (const Error& error) {

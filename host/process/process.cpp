@@ -62,6 +62,19 @@ void useDriverThreads(uint32_t threads) {
     ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
+void leaveOutDriversOfAbsentGpus() {
+    // Those that reach their GPU through the kernel's direct rendering manager alone.
+    constexpr const char* kDrivers = "asahi_icd*,broadcom_icd*,intel_icd*,intel_hasvk_icd*,"
+                                     "nouveau_icd*,panfrost_icd*,powervr_mesa_icd*,radeon_icd*";
+    for (const char* const name :
+         {"VK_LOADER_DRIVERS_DISABLE", "VK_LOADER_DRIVERS_SELECT", "VK_DRIVER_FILES",
+          "VK_ADD_DRIVER_FILES", "VK_ICD_FILENAMES", "RADV_FORCE_FAMILY"})
+        if (std::getenv(name)) return;
+    std::error_code unknown;
+    const bool isAbsent = !std::filesystem::exists("/dev/dri", unknown) && !unknown;
+    if (isAbsent) ::setenv("VK_LOADER_DRIVERS_DISABLE", kDrivers, 1);
+}
+
 void useMemoryInLargePieces() {
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) // the sanitizer has its own
     constexpr size_t kHeap = size_t(512) << 20;          // as much as starts of most scenes ask for

@@ -18,6 +18,11 @@ void useWideVectors();
 /// Has lavapipe work on so many threads. To be called as useWideVectors() is.
 void useDriverThreads(uint32_t threads);
 
+/// Has the Vulkan loader leave out Mesa's drivers for GPUs where the system shows no GPU
+/// (/dev/dri): opening them takes a twentieth of the CPU time of a short render. Nothing is done if
+/// the user has told the loader, or such a driver, what to do. To be called as useWideVectors() is.
+void leaveOutDriversOfAbsentGpus();
+
 /// Memory that is freed is kept for what is asked for next, by whatever thread: between two passes
 /// the plan takes and frees many times the picture, and the driver compiles kernels on a thread of
 /// its own, which would ask thousands of times. It comes from the system in pages of 2 MiB where

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,7 +12,7 @@
 namespace stromboli::test {
 namespace {
 
-using testing::HasSubstr;
+using testing::HasSubstr, testing::Not;
 
 class Devices : public testing::Test {
   protected:
@@ -37,6 +38,23 @@ TEST_F(Devices, TwoOfAKindMakeTheSameBytes) {
     EXPECT_EQ(bytes("one.png"), bytes("two.png"));
     ASSERT_EQ(render("all", "all.png").exitCode, 0);
     EXPECT_EQ(bytes("one.png"), bytes("all.png"));
+}
+
+TEST_F(Devices, DriversOfAbsentGpusAreNotOpened) {
+    if (std::filesystem::exists("/dev/dri")) GTEST_SKIP() << "this machine has a GPU";
+    if (!std::filesystem::exists("/usr/share/vulkan/icd.d/radeon_icd.x86_64.json"))
+        GTEST_SKIP() << "this machine has no driver for an absent GPU";
+    if (std::getenv("VK_DRIVER_FILES") || std::getenv("VK_ICD_FILENAMES"))
+        GTEST_SKIP() << "drivers are chosen by the environment";
+    const char* const said = "Driver \"radeon_icd.x86_64.json\" ignored";
+    const ProgramRun run = stromboli({"devices"}, "VK_LOADER_DEBUG=driver");
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_THAT(run.err, HasSubstr(said));
+    // What the user tells the loader stays.
+    const ProgramRun told =
+        stromboli({"devices"}, "VK_LOADER_DEBUG=driver VK_LOADER_DRIVERS_DISABLE=none");
+    EXPECT_EQ(told.exitCode, 0);
+    EXPECT_THAT(told.err, Not(HasSubstr(said)));
 }
 
 TEST_F(Devices, SharesAndSequencesUseThemToo) {
