@@ -136,19 +136,26 @@ void TexelPacker::append(Lines lines) {
     lines_.push_back(std::move(lines));
 }
 
+/// Lines that one thread packs at a time: each texel of a line but the last is decoded once, for
+/// the rows above it and below.
+constexpr int64_t kLinesAtOnce = 16;
+
 void TexelPacker::pack() {
     rows_.resize(end_);
     tbb::parallel_for(size_t(0), lines_.size(), [&](size_t i) {
         const Lines& lines = lines_[i];
-        tbb::parallel_for(int64_t(0), lines.count, [&](int64_t line) {
-            lines.pack(line - 1, rows_.data() + lines.firstRow + size_t(line) * lines.rowsOfALine);
-        });
+        tbb::parallel_for(tbb::blocked_range<int64_t>(0, lines.count, kLinesAtOnce),
+                          [&](const tbb::blocked_range<int64_t>& some) {
+                              lines.pack(some.begin() - 1, some.end() - 1,
+                                         rows_.data() + lines.firstRow +
+                                             size_t(some.begin()) * lines.rowsOfALine);
+                          });
     });
 }
 
 void TexelPacker::appendPlain(const std::vector<uint32_t>& words) {
     // Whole rows: of a part of a row, texel buffers read nothing.
-    append({end_, (words.size() + 3) / 4, 1, [&words](int64_t, Row* rows) {
+    append({end_, (words.size() + 3) / 4, 1, [&words](int64_t, int64_t, Row* rows) {
                 if (!words.empty()) rows[(words.size() - 1) / 4] = Row{};
                 for (size_t i = 0; i < words.size(); ++i)
                     rows[i / 4][i % 4] = words[i];
@@ -179,11 +186,18 @@ void TexelPacker::appendGathered(const DetailPlan::EdgedImage& edged, bool half)
 template <class Texel>
 void TexelPacker::appendLines(const TextureImage& image, EdgedTexels at, Texel texel) {
     append({end_, size_t(image.width) + 2, int64_t(image.height) + 1,
-            [&image, texel, at = std::move(at)](int64_t y, Row* row) {
-                for (int64_t x = -1; x <= int64_t(image.width); ++x) {
-                    const TexelWords upper = texel(at.line(y) + at.column(x)),
-                                     lower = texel(at.line(y + 1) + at.column(x));
-                    *row++ = {upper[0], upper[1], lower[0], lower[1]};
+            [&image, texel, at = std::move(at)](int64_t first, int64_t end, Row* row) {
+                std::vector<TexelWords> upper(image.width + 2), lower(image.width + 2);
+                const auto read = [&](std::vector<TexelWords>& texels, int64_t y) {
+                    for (size_t i = 0; i < texels.size(); ++i)
+                        texels[i] = texel(at.line(y) + at.column(int64_t(i) - 1));
+                };
+                read(upper, first);
+                for (int64_t y = first; y < end; ++y) {
+                    read(lower, y + 1);
+                    for (size_t i = 0; i < upper.size(); ++i)
+                        *row++ = {upper[i][0], upper[i][1], lower[i][0], lower[i][1]};
+                    std::swap(upper, lower);
                 }
             }});
 }
@@ -191,9 +205,10 @@ void TexelPacker::appendLines(const TextureImage& image, EdgedTexels at, Texel t
 void TexelPacker::appendBundle(const DetailPlan::EdgedBundle& bundle, EdgedTexels at,
                                uint32_t width, uint32_t height) {
     append({end_, size_t(width) + 2, int64_t(height) + 2,
-            [this, bundle, at = std::move(at), width](int64_t y, Row* row) {
-                for (int64_t x = -1; x <= int64_t(width); ++x)
-                    *row++ = bundleTexel(bundle, at.line(y) + at.column(x));
+            [this, bundle, at = std::move(at), width](int64_t first, int64_t end, Row* row) {
+                for (int64_t y = first; y < end; ++y)
+                    for (int64_t x = -1; x <= int64_t(width); ++x)
+                        *row++ = bundleTexel(bundle, at.line(y) + at.column(x));
             }});
 }
 

@@ -43,7 +43,7 @@ class TexelPacker {
     struct Lines {
         size_t firstRow, rowsOfALine;
         int64_t count;
-        std::function<void(int64_t line, Row* row)> pack;
+        std::function<void(int64_t first, int64_t end, Row* row)> pack; ///< lines [first, end)
     };
     void append(Lines lines);
     void appendPlain(const std::vector<uint32_t>& words);
