@@ -78,8 +78,13 @@ def main():
     arguments = parser.parse_args()
     by_program = collections.defaultdict(lambda: [0.0, 0])
     times, failed = [], []
+    # Tests that others make something for (fixtures) come when all of these have ended.
+    tests = list(tests_of(arguments.build, arguments))
+    last = [test for test in tests if "FIXTURES_REQUIRED" in test[2]]
+    first = [test for test in tests if "FIXTURES_REQUIRED" not in test[2]]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for name, program, seconds, passed, text in pool.map(run, tests_of(arguments.build, arguments)):
+        results = (result for some in (first, last) for result in pool.map(run, some))
+        for name, program, seconds, passed, text in results:
             times.append((seconds, name, program))
             by_program[program][0] += seconds
             by_program[program][1] += 1

@@ -136,8 +136,8 @@ void TexelPacker::append(Lines lines) {
     lines_.push_back(std::move(lines));
 }
 
-/// Lines that one thread packs at a time: each texel of a line but the last is decoded once, for
-/// the rows above it and below.
+/// Lines that one thread packs at a time, so that it decodes most texels once, for the rows above
+/// them and below.
 constexpr int64_t kLinesAtOnce = 16;
 
 void TexelPacker::pack() {
