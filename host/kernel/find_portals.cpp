@@ -40,7 +40,8 @@ Feelers withoutOutside(const Feelers& feelers) {
 }
 
 /// From what the camera sees, and from where these rays end; empty where the scene lies open, where
-/// nothing sees the sky, or where so many rays do that portals surely do not pay (mostFree).
+/// nothing sees the sky, or where a larger share of the rays from what the camera sees does than
+/// mostFree.
 Feelers feelRoom(const WideLayout& bvh, const Camera& camera, const SeesThrough& seesThrough,
                  double mostFree) {
     constexpr uint32_t kSideFirst = 16, kSide = 32;
@@ -324,8 +325,8 @@ Portals findPortals(const WideLayout& bvh, const Camera& camera, double unevenne
                     const SeesThrough& seesThrough) {
     constexpr double kLeastGain = 1.25;
     constexpr size_t kLeastFree = 64;
-    // Twice the share with which portals may pay (Worth::gain()): fewer rays may be free from
-    // places that the camera does not see.
+    // Twice the share with which portals may pay (Worth::gain()), as that of all rays may be
+    // smaller than that of the first ones: in four rooms it is 0.8 to 1.2 times as large.
     const double mostFree = 2 / (2 * unevenness * kLeastGain);
     const Feelers feelers = feelRoom(bvh, camera, seesThrough, mostFree);
     Room room;
